@@ -47,6 +47,12 @@ foreach(page ${pages} ${notes})
   foreach(source ${sources})
     want(${ROOT}/${source} ${page})
   endforeach()
+  # Scripts of the top folder have no ending: ./run.
+  string(REGEX MATCHALL "[\n `(][.]/[a-z_]+" scripts "${text}")
+  foreach(script ${scripts})
+    string(REGEX REPLACE "^.[.]/" "" script "${script}")
+    want(${ROOT}/${script} ${page})
+  endforeach()
 endforeach()
 
 # Pages that comments and messages name.

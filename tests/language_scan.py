@@ -24,7 +24,9 @@ IDIOMS = {
     # Rule 1: a comment begins with a verb or a noun.
     "begins with a relative word": re.compile(
         r"^(?:What|Who|Whom|Whose|Of|Nor|Whether|Wherever|Whoever|Those|By which|From which|"
-        r"With which|In which|To which)\b(?![^.]*\?$)"),
+        r"With which|In which|To which|How)\b(?![^.]*\?$)|"
+        # "Where" opens a clause with a comma and a main clause behind it, or a fragment.
+        r"^Where (?!is \.\.\.)(?:[^,;]*$|[^,:;]*\b(?:is|are|was|were)[,:;])"),
     # Rule 2: no headless relative clauses.
     "headless relative clause": re.compile(
         r"(?<![\w-])(?:of|from|by|with|for|to|in|on|at|into|than|and|or|as|is|are|that|only|"

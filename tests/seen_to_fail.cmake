@@ -305,6 +305,8 @@ fault(a_page_that_names_a_lost_script docs README.md
   "see app/report/gone.js" "app/report/gone.js is not there")
 fault(a_page_that_names_a_lost_shell_script docs README.md
   "see tests/gone.sh" "tests/gone.sh is not there")
+fault(a_page_that_names_a_lost_script_without_ending docs README.md
+  "call `./gone demo`" "gone is not there")
 fault(a_page_that_names_a_lost_module docs README.md
   "see live/viewer/gone.ts" "live/viewer/gone.ts is not there")
 fault(a_message_that_names_a_lost_page docs core/point.cpp

@@ -157,7 +157,7 @@ Status check_videos(const Session& session, std::vector<Finding>& findings) {
     if (!trial.timestamps || fs::exists(*trial.timestamps, ignored)) continue;
     return bad_input(
         line_of(session, trial.line),
-        "trial " + trial.name + ": there is no " + trial.timestamps->string(),
+        "trial " + trial.name + ": " + trial.timestamps->string() + " does not exist",
         "correct `timestamps` of that trial, or leave it out");
   }
   const std::vector<Opened> all = open_all(session);

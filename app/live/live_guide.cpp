@@ -42,7 +42,7 @@ Status write_beside_the_old(const std::filesystem::path& path, const Body& body)
       return Error{Errc::kDevice,
                    before.string(),
                    "it cannot be written: " + problem.message(),
-                   "make room on the disk, or choose a folder that may be written to"};
+                   "free some disk space, or choose a folder that may be written to"};
     }
   }
   return recordings::write_subject(path, body);

@@ -35,7 +35,7 @@ Error disk(const std::filesystem::path& path, const std::error_code& problem) {
   return {Errc::kDevice,
           path.string(),
           "it cannot be written: " + problem.message(),
-          "make room on the disk, or choose a folder on another one"};
+          "free some disk space, or choose a folder on another disk"};
 }
 
 /// Returns the file name of an avatar in the take, from its index: the original names may

@@ -228,7 +228,7 @@ void add_fit_command(CLI::App& app,
       "--subject", args.subject, "subject.toml of an earlier fit, instead of fitting");
   CLI::Option* person = command->add_option("--name", args.name, "The subject's name");
   CLI::Option* stature =
-      command->add_option("--stature", args.stature_m, "How tall the subject is [m]")
+      command->add_option("--stature", args.stature_m, "Stature of the subject [m]")
           ->check(between(0.3, 3.0));
   CLI::Option* mass = command->add_option("--mass", args.mass_kg, "Its mass [kg]")
                           ->check(between(1.0, 500.0));

@@ -88,7 +88,7 @@ class TakeFiles {
     if (!problem) return Done{};
     return Error{Errc::kDevice,
                  folder_.string(),
-                 "the folder cannot be made: " + problem.message(),
+                 "the folder cannot be created: " + problem.message(),
                  "choose a folder that may be written to"};
   }
 
@@ -171,7 +171,7 @@ Status check_unrecorded(const std::filesystem::path& folder,
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) continue;
     return bad_input(file.string(),
-                     "there is a recording already",
+                     "a recording already exists",
                      "record under another trial's name, or move the old one away");
   }
   return Done{};

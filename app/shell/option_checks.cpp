@@ -15,7 +15,7 @@ std::string number_problem(const std::string& word) {
   char* end = nullptr;
   const double number = std::strtod(word.c_str(), &end);
   if (end == word.c_str()) return {};
-  if (std::isnan(number)) return "Value " + word + " is no number";
+  if (std::isnan(number)) return "Value " + word + " is not a number";
   if (!std::isfinite(number)) return "Value " + word + " is not finite";
   if (std::abs(number) > kLargestNumber) return "Value " + word + " is absurdly large";
   return {};

@@ -17,7 +17,7 @@ namespace marey::app {
   return CLI::Validator(
       [range](std::string& word) {
         const bool is_nan = CLI::detail::to_lower(word).find("nan") != std::string::npos;
-        return is_nan ? "Value " + word + " is no number" : range(word);
+        return is_nan ? "Value " + word + " is not a number" : range(word);
       },
       range.get_description());
 }

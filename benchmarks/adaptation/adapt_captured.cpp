@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMaxPairs = 12;
 
-/// Where the centre of mass is wanted.
+/// Target of the centre of mass.
 enum class Balance { kOff, kAsReference, kAsCaptured };
 
 struct Question {

@@ -17,7 +17,7 @@
 
 namespace marey {
 
-/// How many points a case holds: right wrist, left wrist, right ankle, left ankle.
+/// Number of points of a case: right wrist, left wrist, right ankle, left ankle.
 inline constexpr std::size_t kCasePoints = 4;
 /// Which of them is the planted foot.
 inline constexpr std::size_t kPlantedPoint = 3;

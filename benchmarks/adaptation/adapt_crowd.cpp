@@ -25,7 +25,7 @@ constexpr std::uint64_t kSeed = 2005;
 constexpr int kRounds = 7;
 constexpr double kTick_us = 40000.0;  // 25 Hz.
 
-/// How much longer than the cases' body one is: arms, legs, trunk, and all of it.
+/// Lengths of a body divided by those of the cases' body: arms, legs, trunk, whole.
 struct Build {
   double arms = 1.0;
   double legs = 1.0;

@@ -10,7 +10,7 @@
 namespace marey {
 
 inline constexpr double kTarget_m = 0.045;  ///< Radius of the balls.
-/// Where the label of a figure that stands at Z = 0 is, from a figure's place.
+/// Place of the label of a figure that stands at Z = 0, from the figure's place.
 inline constexpr glm::dvec3 kLabel{0, -0.10, 0.1};
 /// View from the right side: a person facing +Z looks to the right of the picture.
 inline constexpr PictureView kSide{-78.0, 7.0};

@@ -12,7 +12,7 @@
 
 namespace marey {
 
-/// How the constraint of goal `k` is called in a marey_constraints().
+/// Returns the id of the constraint of goal `k` in a marey_constraints().
 [[nodiscard]] std::string goal_id(std::size_t k);
 
 /// The goals as constraints: contact with a point, or a support where the goal is

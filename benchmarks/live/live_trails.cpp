@@ -41,8 +41,8 @@ std::vector<Pattern> patterns(std::size_t frames, std::size_t cameras) {
            }}};
 }
 
-/// Where a joint was between frames: on a cubic through the four around. nullopt where
-/// one of them is missing.
+/// Returns the place of a joint between frames, on a cubic through the four nearest
+/// frames. nullopt if one of them is missing.
 std::optional<glm::dvec3> place_at(const testing::TruthJoints& truth,
                                    HumanBone bone,
                                    double frame) {

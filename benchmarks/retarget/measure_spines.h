@@ -13,9 +13,9 @@ namespace marey {
 
 /// Each clip on its own body with other bones between hips and neck: one to six, the
 /// first where the body's own is, the others evenly along the way to the neck, collar
-/// bones on the last, all other joints at rest where they are. How far neck, shoulders
-/// and wrists are from the source's, and how far the neck of one bone must be because
-/// that bone is as long as it is.
+/// bones on the last, all other joints at rest where they are. Reports the distances of
+/// neck, shoulders and wrists from the source's, and the distance that the neck of one
+/// bone has because of that bone's length.
 [[nodiscard]] Result<ResultTable> measure_spines(std::span<const CapturedClip> clips);
 
 }  // namespace marey

@@ -9,7 +9,7 @@
 
 namespace marey {
 
-/// How long the bones of another body are, over the source's.
+/// Lengths of the bones of another body, divided by the source's.
 struct BodyScale {
   const char* name;
   double legs;

@@ -58,7 +58,7 @@ Error not_a_camera(const std::string& path, const std::string& what_it_is) {
 Error device_error(const std::string& path, V4l2Step step, int number) {
   const bool missing = number == ENOENT || number == ENOTDIR;
   if (step == V4l2Step::kOpen && missing) {
-    return error(path, "there is no such device", kSeeDoctor);
+    return error(path, "the device does not exist", kSeeDoctor);
   }
   if (is_disconnect_errno(number)) {
     return error(path,

@@ -73,7 +73,7 @@ std::string status_json(const PageStatus& status) {
       {{"type", "status"},
        {"clock_s", status.clock_s},
        {"subject", word(status.subject)},
-       {"doubts", status.warnings},
+       {"warnings", status.warnings},
        {"frame", status.frame},
        {"rate_hz", status.rate_hz},
        {"latency_ms", {{"p50", status.latency.p50_ms}, {"p95", status.latency.p95_ms}}},

@@ -54,7 +54,7 @@ std::optional<glm::dvec3> read_direction(TomlReader& in, std::string_view key) {
   const double length = glm::length(direction);
   if (length > 1e-6 && length < 1e6) return direction / length;
   in.fail(key,
-          in_quotes(key) + " is no direction",
+          in_quotes(key) + " is not a direction",
           "give one of +X, +Y, +Z, -X, -Y, -Z, or three numbers");
   return std::nullopt;
 }

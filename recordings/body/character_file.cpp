@@ -82,7 +82,7 @@ void read_body(TomlReader& in, CharacterSpec& spec) {
   }
   if (given.empty()) {
     in.fail("",
-            "it does not say whose lengths the character has",
+            "it does not state whose lengths the character has",
             "give \"avatar\", \"subject\" or \"stature_m\"");
     return;
   }

@@ -92,7 +92,7 @@ glm::dquat ConstraintReader::read_rotation(pugi::xml_node node) {
       z_up_ ? glm::dquat(w, x, z, 0.0 - y) : glm::dquat(w, x, y, z);
   constexpr double kRounded = 1e-3;  // Three digits, the usual rounding by hand.
   if (node && std::abs(glm::length(rotation) - 1.0) > kRounded) {
-    xml_.fail(node, "<orientation> is no unit quaternion", "divide it by its length");
+    xml_.fail(node, "<orientation> is not a unit quaternion", "divide it by its length");
   }
   return xml_.mistake() || !node ? glm::dquat(1.0, 0.0, 0.0, 0.0)
                                  : normalized_once(rotation);
@@ -242,7 +242,7 @@ void ConstraintReader::read_set(pugi::xml_node root, ConstraintSet& set) {
   }
   xml_.keep_unknown(root, kGoalElements, &set.unknown_xml);
   if (z_up_ && (keeps_some || !set.unknown_xml.empty())) {
-    xml_.note(root, "what is kept as it is still has Z up");
+    xml_.note(root, "unknown content is kept and still has Z up");
   }
 }
 

@@ -75,7 +75,7 @@ void find_unit(const C3dInfo& info,
     return;
   }
   const std::string silent =
-      declared ? "POINT:UNITS is \"" + *declared + "\", which is no unit of length"
+      declared ? "POINT:UNITS is \"" + *declared + "\", which is not a unit of length"
                : "POINT:UNITS is missing";
   if (const auto found = finder.unit()) {
     set(*found, Evidence::kMarkers);

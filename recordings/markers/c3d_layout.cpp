@@ -211,7 +211,7 @@ void settle_frames(const Words& words,
   }
   guess.frames = std::min<std::int64_t>(there, 2147483647);
   if (words.frames.empty()) {
-    info.notes.push_back("the file does not say how many frames it has; there are " +
+    info.notes.push_back("the file does not state how many frames it has; there are " +
                          count_text(guess.frames));
   } else if (words.frames[0] > there) {
     const std::uint64_t end =

@@ -60,7 +60,7 @@ std::vector<std::string> distinct_labels(std::vector<std::string> labels,
   }
   if (doubled > 0) {
     notes.push_back(std::to_string(doubled) + " markers have the label of another (" +
-                    first_doubled + "...); a number is put behind theirs");
+                    first_doubled + "...); a number is appended to theirs");
   }
   return labels;
 }

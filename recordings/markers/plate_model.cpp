@@ -114,7 +114,7 @@ std::vector<PlateModel> plate_models(const C3dInfo& info,
       model.channels.push_back(static_cast<std::size_t>(number) - 1);
     }
     if (model.channels.size() < channels_of(model.type)) {
-      leave_out("FORCE_PLATFORM:CHANNEL names channels that are not there");
+      leave_out("FORCE_PLATFORM:CHANNEL names channels that do not exist");
       continue;
     }
     // Each sensor has its own channels; many plates that share few would use up the

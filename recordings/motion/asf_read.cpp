@@ -81,7 +81,9 @@ class AsfParser {
       (void)reader_.rest_of_line();
     }
     if (in_bone_) return fail("the file ends inside a bone");
-    if (file_.bones.size() == 1) return fail("the file has no bones: it is no .asf file");
+    if (file_.bones.size() == 1) {
+      return fail("the file has no bones: it is not a .asf file");
+    }
     if (!has_hierarchy_) return fail("the file ends before its :hierarchy");
     if (file_.bones.size() > kMaxJoints) {
       return fail("there are more than " + std::to_string(kMaxJoints) + " bones");
@@ -123,7 +125,9 @@ class AsfParser {
       has_hierarchy_ = has_hierarchy_ || section_ == ":hierarchy";
       return Done{};
     }
-    if (section_.empty()) return fail("expected a section (\":root\"): no .asf file");
+    if (section_.empty()) {
+      return fail("expected a section (\":root\"): this is not a .asf file");
+    }
     if (section_ == ":units") return unit_line();
     if (section_ == ":root") return root_line();
     if (section_ == ":bonedata") return bone_line();
@@ -182,7 +186,9 @@ class AsfParser {
          word = lower_case(reader_.word_on_line())) {
       const auto channel = channel_of(word);
       if (!channel) return fail("unknown degree of freedom " + quoted_start(word));
-      if (bone.channels.size() == 7) return fail("there are more than 7 of them");
+      if (bone.channels.size() == 7) {
+        return fail("there are more than 7 degrees of freedom");
+      }
       bone.channels.push_back(*channel);
     }
     return Done{};
@@ -226,11 +232,11 @@ class AsfParser {
       if (!bone.name.empty()) return fail("a bone has two names");
       bone.name = reader_.word_on_line();
       const auto [there, is_new] = place_of_.emplace(bone.name, file_.bones.size() - 1);
-      if (!is_new) return fail("the bone " + quoted_start(bone.name) + " is there twice");
+      if (!is_new) return fail("the bone " + quoted_start(bone.name) + " is given twice");
     } else if (first_ == "direction") {
       if (Status s = vector(bone.direction); !s) return s;
       if (glm::length(bone.direction) > kMaxDistance_m)
-        return fail("that is no direction");
+        return fail("this is not a direction");
     } else if (first_ == "length") {
       const auto value = number();
       if (!value) return value.error();

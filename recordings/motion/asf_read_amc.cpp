@@ -101,7 +101,7 @@ class AmcParser {
   Status bone(std::string_view name) {
     if (!number_) {
       return fail("expected the number of a frame, found " + quoted_start(name) +
-                  ": no .amc file");
+                  ": this is not a .amc file");
     }
     const auto found = joint_of_.find(name);
     if (found == joint_of_.end()) {

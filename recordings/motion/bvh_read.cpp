@@ -163,7 +163,7 @@ class BvhParser {
     joint.name = *text;
     joint.bone = human_bone(joint.name);
     if (joint.bone && file_.skeleton.find(*joint.bone)) {
-      return fail("the joint " + quoted_start(joint.name) + " is there twice");
+      return fail("the joint " + quoted_start(joint.name) + " is given twice");
     }
     if (Status s = open_brace(); !s) return s;
     const auto from_parent = offset();

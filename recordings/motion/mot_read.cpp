@@ -103,7 +103,7 @@ class MotReader {
       if (first && key != "name") header_.name = text;
       first = false;
     }
-    return fail("this is no .mot or .sto file: there is no line endheader",
+    return fail("this is not a .mot or .sto file: there is no line endheader",
                 "give a motion or storage file as OpenSim writes it");
   }
 
@@ -137,7 +137,7 @@ class MotReader {
     if (time == cells_.end()) {
       return fail("no column is called time; the columns begin with " +
                       in_quotes(cells_.front().substr(0, 40)),
-                  "name the column of times so, or export the file again");
+                  "name the column of times \"time\", or export the file again");
     }
     time_column_ = static_cast<std::size_t>(time - cells_.begin());
     for (std::size_t i = 0; i < cells_.size(); ++i) {

@@ -173,7 +173,7 @@ PageFrame frame_of(const CharucoBoard& board) {
     frame.how_to +=
         board.is_legacy
             ? " Its pattern is that of OpenCV before 4.6."
-            : " OpenCV before 4.6 wants another pattern for an even number of "
+            : " OpenCV before 4.6 needs another pattern for an even number of "
               "rows.";
   }
   frame.table = lines_of(board_table(board));

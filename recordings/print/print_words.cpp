@@ -78,7 +78,8 @@ Result<std::vector<NamedTag>> parse_item(std::string_view item) {
   const auto first = id_of(ids.substr(0, dash));
   const auto last = dash == std::string_view::npos ? first : id_of(ids.substr(dash + 1));
   if (!first || !last) {
-    return bad_input("ids", in_quotes(item) + " is no id and no range of ids", kIdsNext);
+    return bad_input(
+        "ids", in_quotes(item) + " is not an id or a range of ids", kIdsNext);
   }
   if (*last < *first) {
     return bad_input("ids",
@@ -102,7 +103,7 @@ Result<double> parse_length_m(std::string_view text) {
   const auto parsed = number_and_rest(trimmed(text));
   if (!parsed) {
     return bad_input("length",
-                     in_quotes(text) + " is no length",
+                     in_quotes(text) + " is not a length",
                      "write for example 80mm, 8cm or 3.15in");
   }
   const auto [value, unit] = *parsed;
@@ -120,7 +121,7 @@ Result<double> parse_length_m(std::string_view text) {
   }
   if (!(*length_m > 0.0 && *length_m <= kMaxLength_m)) {
     return bad_input("length",
-                     in_quotes(text) + " is not between nothing and 10 m",
+                     in_quotes(text) + " must be above 0 and at most 10 m",
                      "check number and unit");
   }
   return *length_m;
@@ -145,7 +146,7 @@ Result<Paper> parse_paper(std::string_view text) {
     }
   }
   return bad_input("page",
-                   in_quotes(text) + " is no page size that marey knows",
+                   in_quotes(text) + " is not a page size that marey knows",
                    "write A4, A3, Letter, or width and height as 210x297mm");
 }
 
@@ -162,7 +163,7 @@ Result<std::vector<NamedTag>> parse_tags(std::string_view text) {
         continue;
       }
       return bad_input("ids",
-                       "tag " + std::to_string(number(tag.id)) + " is there twice",
+                       "tag " + std::to_string(number(tag.id)) + " is given twice",
                        "name each tag once");
     }
     if (comma == std::string_view::npos) break;

@@ -28,7 +28,7 @@ std::string camera_key(std::size_t index) {
 void read_resolution(TomlReader& in, Intrinsics& k) {
   const std::vector<double> size = in.numbers("resolution", 2);
   if (in.ok() && !(size[0] >= 1 && size[0] <= 1e5 && size[1] >= 1 && size[1] <= 1e5)) {
-    in.fail("resolution", "\"resolution\" is no size of a picture", "correct it");
+    in.fail("resolution", "\"resolution\" is not a picture size", "correct it");
     return;
   }
   k.width_px = static_cast<int>(size[0]);
@@ -51,7 +51,7 @@ void read_distortion(TomlReader& in, Intrinsics& k) {
                       : in.numbers("distortion_coeffs", in.count("distortion_coeffs"));
   if (set_distortion(terms, is_fisheye, k)) return;
   in.fail("distortion_coeffs",
-          "\"distortion_coeffs\" has not the terms of " + in_quotes(model),
+          "\"distortion_coeffs\" does not have the coefficients of " + in_quotes(model),
           "radtan and equidistant have 4 numbers, plumb_bob 5");
 }
 

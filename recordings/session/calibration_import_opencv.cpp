@@ -58,9 +58,10 @@ std::vector<double> matrix_at(TomlReader& in, std::string_view key) {
   const double expected =
       static_cast<double>(matrix.integer("rows", kSide)) * matrix.integer("cols", kSide);
   if (expected != static_cast<double>(count)) {
-    matrix.fail("data",
-                in_quotes(key) + " has not as many numbers as its rows and cols say",
-                "copy the file again");
+    matrix.fail(
+        "data",
+        in_quotes(key) + " has another number of values than its rows and cols state",
+        "copy the file again");
   }
   return matrix.numbers("data", count);
 }
@@ -70,7 +71,7 @@ void read_image_size(TomlReader& in, Intrinsics& k) {
   if (in.has("image_size")) {
     const std::vector<double> size = in.numbers("image_size", 2);
     if (!(size[0] >= 1 && size[0] <= 1e5 && size[1] >= 1 && size[1] <= 1e5)) {
-      in.fail("image_size", "\"image_size\" is no size of a picture", "correct it");
+      in.fail("image_size", "\"image_size\" is not a picture size", "correct it");
       return;
     }
     k.width_px = static_cast<int>(size[0]);
@@ -83,7 +84,7 @@ void read_image_size(TomlReader& in, Intrinsics& k) {
     k.height_px = in.integer("image_height", kSide);
   } else {
     in.fail("",
-            "the file does not say how large the pictures are",
+            "the file does not state how large the pictures are",
             "add the keys image_width and image_height, in pixels");
   }
 }
@@ -196,7 +197,8 @@ Status import_opencv(TomlReader& root,
     return Done{};
   }
   if (first_of(root, kMatrix2).empty()) {
-    root.fail("", "it has a first camera's matrix and no second's", "copy M2 and D2 too");
+    root.fail(
+        "", "it has a first camera's matrix and no second's", "copy M2 and D2 also");
     return Done{};
   }
   Camera first;

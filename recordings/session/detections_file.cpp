@@ -111,7 +111,7 @@ class DetectionsParser {
 
   Result<std::optional<CameraDetections>> parse(std::string_view key) {
     const std::string_view first = lines_.next().value_or("");
-    if (!first.starts_with(kAnyVersion)) return fail("this is no table of detections");
+    if (!first.starts_with(kAnyVersion)) return fail("this is not a table of detections");
     if (first != std::string(kVersion).append(key))
       return std::optional<CameraDetections>();
     if (!take_header()) return fail("the lines above the table do not fit");

@@ -123,7 +123,7 @@ TagOnSegment read_tag(TomlReader& in, int id, const std::optional<double>& usual
     tag.segment = *bone;
   } else if (in.ok()) {
     in.fail("segment",
-            in_quotes(segment) + " is no segment of a body",
+            in_quotes(segment) + " is not a segment of a body",
             "use VRM's names: hips, upperChest, head, leftUpperArm...");
   }
   if (in.has("size_m")) tag.size_m = in.number("size_m", kTag);

@@ -85,9 +85,10 @@ Status check_files(const Session& session) {
     }
     for (const TrialVideo& video : trial.videos) {
       if (is_there(video)) continue;
-      return bad_input(file_and_line(session.file.string(), video.line),
-                       "trial " + trial.name + ": there is no " + video.path.string(),
-                       "copy the video there, or correct its path or `media`");
+      return bad_input(
+          file_and_line(session.file.string(), video.line),
+          "trial " + trial.name + ": " + video.path.string() + " does not exist",
+          "copy the video there, or correct its path or `media`");
     }
   }
   return Done{};

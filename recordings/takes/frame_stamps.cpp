@@ -93,7 +93,7 @@ class StampsParser {
     const auto c = video_called(camera, videos_);
     const auto at_s = to_number(time);
     if (!at_s || std::abs(*at_s) > kMax_s) {
-      return fail(in_quotes(time) + " is no time in seconds");
+      return fail(in_quotes(time) + " is not a time in seconds");
     }
     if (!c) return Done{};
     std::vector<double>& times_s = seen_s_[*c];
@@ -111,7 +111,7 @@ class StampsParser {
       if (seen_s_[c].empty()) {
         return bad_input(file_,
                          "it has no times of video " + in_quotes(videos_[c]),
-                         "call its camera there as the video is called, or by the number "
+                         "in that file, name the camera like the video, or by the number "
                          "at the end of that name");
       }
       earliest_s = std::min(earliest_s, seen_s_[c].front());

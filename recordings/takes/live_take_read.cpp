@@ -80,8 +80,9 @@ Result<LiveTake> read_live_take(const std::filesystem::path& path) {
   const std::string file = path.string();
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) {
-    return bad_input(
-        file, "there is no live take", "name the folder that marey live --record made");
+    return bad_input(file,
+                     "the live take does not exist",
+                     "name the folder that marey live --record made");
   }
   const auto opened = open_recorded(path);
   if (!opened) return opened.error();
@@ -90,7 +91,7 @@ Result<LiveTake> read_live_take(const std::filesystem::path& path) {
       bad_input(file,
                 "it is not the database of a live take, or it is damaged",
                 "copy it again from where it was recorded, with the files " +
-                    std::string(kLiveTakeFile) + "-wal and -shm if they are there");
+                    std::string(kLiveTakeFile) + "-wal and -shm if they exist");
   if (!database || setting_of(database.get(), "application_id") != kLiveTakeApplication) {
     return damaged;
   }

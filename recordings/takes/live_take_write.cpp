@@ -108,7 +108,7 @@ Status LiveTakeWriter::finish() {
               "UPDATE live SET finished=1; PRAGMA journal_mode=DELETE")) {
     return Done{};
   }
-  return disk_error(impl_->file, impl_->database.get(), "the take cannot be ended");
+  return disk_error(impl_->file, impl_->database.get(), "the take cannot be completed");
 }
 
 }  // namespace marey::recordings

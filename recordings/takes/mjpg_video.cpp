@@ -53,7 +53,7 @@ struct MjpgVideo::Impl {
     return {Errc::kDevice,
             file,
             what + ": " + text_of(problem),
-            "make room on the disk, or record to another one"};
+            "free some disk space, or record to another disk"};
   }
 
   [[nodiscard]] int begin(const MjpgVideoOptions& options);
@@ -101,7 +101,7 @@ Result<MjpgVideo> MjpgVideo::create(const std::filesystem::path& path,
     const bool made = impl->muxer != nullptr && impl->muxer->pb != nullptr;
     std::error_code ignored;
     if (made) std::filesystem::remove(path, ignored);
-    return impl->error("the video cannot be begun", problem);
+    return impl->error("the video cannot be started", problem);
   }
   return MjpgVideo(std::move(impl));
 }
@@ -146,7 +146,7 @@ Status MjpgVideo::finish() {
   if (problem >= 0) problem = impl_->muxer->pb->error;
   const int closed = avio_closep(&impl_->muxer->pb);
   if (problem >= 0) problem = closed;
-  if (problem < 0) return impl_->error("the video cannot be ended", problem);
+  if (problem < 0) return impl_->error("the video cannot be completed", problem);
   return Done{};
 }
 

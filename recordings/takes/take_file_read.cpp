@@ -17,7 +17,7 @@ Error damaged(const std::string& file) {
   return bad_input(file,
                    "it is not the database of a take, or it is damaged",
                    "copy it again from where it was recorded, with the files " +
-                       std::string(kTakeFile) + "-wal and -shm if they are there");
+                       std::string(kTakeFile) + "-wal and -shm if they exist");
 }
 
 bool read_head(sqlite3* database, Take& take) {
@@ -105,7 +105,7 @@ Result<Take> read_take(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) {
     return bad_input(file,
-                     "the file is missing, so the times of the frames are unknown",
+                     "the file does not exist, so the times of the frames are unknown",
                      "copy it from where the take was recorded; or name the videos in "
                      "the trial's `videos`, outside of the take: then frames are matched "
                      "by their numbers");
@@ -119,10 +119,10 @@ Result<Take> read_take(const std::filesystem::path& path) {
   const std::int64_t version = setting_of(database.get(), "user_version");
   if (version > kTakeVersion) {
     return bad_input(file,
-                     "it was recorded by a newer marey (format " +
-                         std::to_string(version) + ", this one knows " +
+                     "it was recorded by a newer version of marey (format " +
+                         std::to_string(version) + ", this version reads " +
                          std::to_string(kTakeVersion) + ")",
-                     "install the newer marey");
+                     "install that version");
   }
   Take take;
   sqlite3* const raw = database.get();

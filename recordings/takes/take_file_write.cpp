@@ -142,7 +142,7 @@ Status TakeWriter::finish() {
               "UPDATE take SET finished=1; PRAGMA journal_mode=DELETE")) {
     return Done{};
   }
-  return impl_->error("the take cannot be ended");
+  return impl_->error("the take cannot be completed");
 }
 
 }  // namespace marey::recordings

@@ -133,7 +133,7 @@ Error disk_error(const std::string& file, sqlite3* database, const std::string& 
   return {Errc::kDevice,
           file,
           what + ": " + sqlite3_errmsg(database),
-          "make room on the disk, or record to another one"};
+          "free some disk space, or record to another disk"};
 }
 
 Result<Database> begin_recorded(const std::filesystem::path& file,
@@ -142,13 +142,13 @@ Result<Database> begin_recorded(const std::filesystem::path& file,
                                 const std::function<bool(sqlite3*)>& write_head) {
   std::error_code ignored;
   if (std::filesystem::exists(file, ignored)) {
-    return bad_input(file.string(), "there is a recording already", instead);
+    return bad_input(file.string(), "a recording already exists", instead);
   }
   Database database = open_database(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
   if (!database) {
     return Error{Errc::kDevice,
                  file.string(),
-                 "the file cannot be made",
+                 "the file cannot be created",
                  "choose a folder that may be written to"};
   }
   sqlite3* const raw = database.get();
@@ -161,7 +161,7 @@ Result<Database> begin_recorded(const std::filesystem::path& file,
                   "; PRAGMA user_version=" + std::to_string(kind.version)) &&
       execute(raw, kind.schema) && write_head(raw) && execute(raw, "COMMIT");
   if (made) return database;
-  Error error = disk_error(file.string(), raw, "the take cannot be begun");
+  Error error = disk_error(file.string(), raw, "the take cannot be started");
   database.reset();
   for (const char* suffix : {"", "-wal", "-shm", "-journal"}) {
     std::filesystem::remove(file.string() + suffix, ignored);
@@ -187,8 +187,8 @@ Result<Database> open_recorded(const fs::path& file) {
                  file.string(),
                  "its writer was killed, and there is no room for the copy in which its "
                  "log is put in order",
-                 "make room in " + fs::temp_directory_path(ignored).string() +
-                     ", or set TMPDIR to a folder that has"};
+                 "free some space in " + fs::temp_directory_path(ignored).string() +
+                     ", or set TMPDIR to a folder on another disk"};
   }
   {
     // Merges the log.

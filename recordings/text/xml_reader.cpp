@@ -163,7 +163,7 @@ bool XmlReader::check_bytes() {
   });
   if (odd != text_.end() || !is_utf8(text_)) {
     fail_at(static_cast<std::size_t>(odd != text_.end() ? odd - text_.begin() : 0),
-            "this is no text in UTF-8",
+            "this is not UTF-8 text",
             "name an XML file, or save it as UTF-8");
   }
   return !mistake_;
@@ -195,7 +195,7 @@ pugi::xml_node XmlReader::root(const char* name) {
   for (pugi::xml_node next = root.next_sibling(); next; next = next.next_sibling()) {
     if (next.type() != pugi::node_element) continue;
     fail(next,
-         in_brackets(next.name()) + " stands after the end of " + in_brackets(name),
+         in_brackets(next.name()) + " is after the end of " + in_brackets(name),
          "move it inside, or remove it");
     return {};
   }
@@ -206,7 +206,7 @@ pugi::xml_node XmlReader::child(pugi::xml_node parent, const char* name) {
   const pugi::xml_node first = parent.child(name);
   if (const pugi::xml_node second = first.next_sibling(name)) {
     fail(second,
-         in_brackets(name) + " is there twice, first on line " +
+         in_brackets(name) + " is given twice, first on line " +
              std::to_string(line(first)),
          "remove one");
   }
@@ -227,7 +227,7 @@ std::string XmlReader::text(pugi::xml_node node) {
     if (part.type() == pugi::node_element) {
       fail(part,
            in_brackets(node.name()) + " holds " + in_brackets(part.name()) +
-               " where a value should be",
+               " instead of a value",
            "write the value alone");
     }
     if (is_text(part)) whole += part.value();
@@ -254,7 +254,7 @@ double XmlReader::number(pugi::xml_node node, const Limits& limits) {
   const std::optional<double> value = to_number(word);
   if (!value) {
     fail(node,
-         in_brackets(node.name()) + " is " + in_quotes(word) + ", which is no number",
+         in_brackets(node.name()) + " is " + in_quotes(word) + ", which is not a number",
          "write a number, with a decimal point");
     return 0.0;
   }
@@ -274,7 +274,7 @@ double XmlReader::number(pugi::xml_node node, const Limits& limits) {
 int XmlReader::integer(pugi::xml_node node, const Limits& limits) {
   const double value = number(node, limits);
   if (value == std::floor(value)) return static_cast<int>(value);
-  fail(node, in_brackets(node.name()) + " is no whole number", "correct the number");
+  fail(node, in_brackets(node.name()) + " is not a whole number", "correct the number");
   return 0;
 }
 

@@ -135,7 +135,7 @@ Result<FoundBones> identify_bones(const Skeleton& skeleton, const BoneMap& overr
   apply_overrides(overrides, *found);
   if (!has_long_bones(*found)) {
     auto shape = shape_bones(tree);
-    // Where names explain most of a body, the missing names are the better error.
+    // If names explain most of a body, the missing names are the better error.
     const bool is_named = found->joint(B::kHips) && found->joint(B::kLeftUpperLeg) &&
                           found->joint(B::kRightUpperLeg);
     if (!shape && is_named) return check_bones(tree, overrides, *found).error();

@@ -29,7 +29,7 @@ constexpr std::array kBody{P::kHead,
                            P::kLeftShank,
                            P::kRightShank};
 constexpr double kNearest_legs = 0.01;  // Smaller distances have the same weight.
-// Where neither hand is free, the error is shared.
+// If neither hand is free, the error is shared.
 constexpr double kMinLiveFreedom = 1e-3;
 
 std::size_t side_index(int side) {

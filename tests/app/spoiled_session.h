@@ -33,7 +33,7 @@ class SpoiledSession {
   /// Gives a camera of a trial another video, made by the caller: the path to make it at.
   std::filesystem::path new_video(const std::string& trial, const std::string& camera);
 
-  /// Where the sample has this video: sample_video("walk", "cam0").
+  /// Returns the path of a video of the sample: sample_video("walk", "cam0").
   [[nodiscard]] static std::filesystem::path sample_video(const std::string& trial,
                                                           const std::string& camera);
 

@@ -205,7 +205,7 @@ void check_refusals() {
 
 void check_wrong_devices() {
   const std::string missing = refusal(small("/dev/video9"));
-  check(has(missing, "there is no such device"), "no device", missing);
+  check(has(missing, "the device does not exist"), "no device", missing);
   const std::string null = refusal(small("/dev/null"));
   check(has(null, "not a capture device"), "not a video device", null);
   const std::string output = refusal(small(kOutput));

@@ -7,7 +7,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import {pillOf, STATUS_SILENCE_MS} from '../src/panels/pill';
 
-const good = {subject: 'tracked' as const, doubts: []};
+const good = {subject: 'tracked' as const, warnings: []};
 
 test('the badge is good while a status says so and is new', () => {
   assert.equal(pillOf(true, true, good, 0).state, 'tracked');
@@ -18,12 +18,12 @@ test('the badge is good while a status says so and is new', () => {
 
 test('the badge says why it is not good', () => {
   const partly = {subject: 'partly' as const,
-    doubts: ['camera left is lost', 'leftFoot has not been seen']};
+    warnings: ['camera left is lost', 'leftFoot has not been seen']};
   assert.deepEqual(pillOf(true, true, partly, 100), {state: 'partly', words: 'tracked in part',
     why: 'camera left is lost\nleftFoot has not been seen'});
   for (const subject of ['behind', 'stopped', 'lost'] as const) {
-    assert.equal(pillOf(true, true, {subject, doubts: []}, 0).state, subject);
-    assert.doesNotMatch(pillOf(true, true, {subject, doubts: []}, 0).words, /tracked/);
+    assert.equal(pillOf(true, true, {subject, warnings: []}, 0).state, subject);
+    assert.doesNotMatch(pillOf(true, true, {subject, warnings: []}, 0).words, /tracked/);
   }
 });
 

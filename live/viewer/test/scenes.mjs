@@ -76,7 +76,7 @@ export function fileScene(rate_hz, frames, avatar) {
 
 export function statusAt({frame, rate_hz, recording, recordingTrouble, pages}) {
   const stage = (name, p50_ms, p95_ms) => ({name, p50_ms, p95_ms});
-  return {type: 'status', clock_s: frame / rate_hz, subject: 'tracked', doubts: [], frame, rate_hz: 29.9,
+  return {type: 'status', clock_s: frame / rate_hz, subject: 'tracked', warnings: [], frame, rate_hz: 29.9,
     latency_ms: {p50: 21.4, p95: 29.8},
     stages: [stage('detect left', 7.2, 9.9), stage('detect right', 7, 9.6),
       stage('track pose', 1.6, 2.3), stage('adapt', 0.2, 0.3), stage('send', 0.1, 0.2)],

@@ -29,7 +29,8 @@ using Json = nlohmann::json;
 constexpr double kFile_m = 2e-5;
 constexpr double kPrecision_m = 1e-3;  // The default precision of a constraint.
 
-/// Where the walking hand can get from 1 s to 1.4 s: in front of where it is halfway.
+/// Returns a place that the walking hand reaches from 1 s to 1.4 s: in front of its
+/// place halfway.
 glm::dvec3 in_reach(const AdaptScene& scene) {
   return place_of(scene.walk().motion, 36, B::kLeftHand) + glm::dvec3(0.05, 0.35, 0.15);
 }
@@ -53,7 +54,7 @@ std::vector<std::vector<int>> runs_of(const std::vector<char>& bears) {
   return runs;
 }
 
-/// How far a joint moves while it should stand.
+/// Returns the largest displacement of a joint while it should stand.
 double slide_m(const Motion& motion, const std::vector<char>& bears, B bone) {
   double worst = 0.0;
   for (const std::vector<int>& run : runs_of(bears)) {
@@ -149,7 +150,7 @@ TEST(Adapt, StandsOnAFloorOfAnyHeight) {
   for (int t = 0; t < 90; t += 10) {
     const double rise_m =
         place_of(above, t, B::kRightToes).y - place_of(below, t, B::kRightToes).y;
-    EXPECT_NEAR(rise_m, 0.4, 5e-3);  // Where the walk's feet rest, to millimetres.
+    EXPECT_NEAR(rise_m, 0.4, 5e-3);  // Feet of the walk rest there, to millimetres.
   }
 }
 

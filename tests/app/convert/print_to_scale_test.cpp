@@ -168,7 +168,7 @@ void expect_tags(const Json& summary,
   EXPECT_TRUE(wanted.empty());
 }
 
-/// Where the ticks of the ruler are, along x. [m]
+/// Returns the places of the ruler's ticks along x. [m]
 std::vector<double> ticks(const cv::Mat& picture, const Json& page) {
   const double height_m = page.at("height_m");
   const double left_m = page.at("ruler_start_m").at(0);

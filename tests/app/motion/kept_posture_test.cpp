@@ -148,7 +148,7 @@ constexpr Names kVoxels{"Hips",
 struct Body {
   const char* file;
   Names names;
-  /// How far limbs may be off on the mean: they keep feet where these stand and arms out
+  /// Largest mean error of limbs: they keep feet where these stand and arms out
   /// of the body, on a body of proportions that ask for it. [degrees]
   double limbs_off = 8.0;
   /// The same of feet, whose yaw is measured to where their joint ends. [degrees]

@@ -246,7 +246,7 @@ TEST(ReadBody, NamesTheFileThatIsNoBody) {
   EXPECT_NE(said(folder / "man.fbx").find("is not a .bvh, .amc"), std::string::npos);
 }
 
-/// Where the joints of a retargeted file are, in marey's frame.
+/// Returns the joints of a retargeted file, in marey's frame.
 std::vector<RigidTransform> placed(const std::filesystem::path& file, std::size_t frame) {
   const auto body = read_body(file);
   EXPECT_TRUE(body) << body.error().message();

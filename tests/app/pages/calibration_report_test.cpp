@@ -139,7 +139,8 @@ TEST(CalibrationReport, CountsEveryCornerOnce) {
   }
 }
 
-/// Where rays of found cameras through the true pixels of a point meet.
+/// Returns the intersection of the found cameras' rays through the true pixels of a
+/// point.
 glm::dvec3 meeting_of(const std::vector<Camera>& found,
                       const std::vector<Camera>& truth,
                       const glm::dvec3& p_in_world) {

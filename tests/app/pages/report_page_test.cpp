@@ -49,7 +49,7 @@ TEST_F(ReportInABrowser, MakesNoElementOutOfAName) {
   EXPECT_EQ(shown.page.find("<b>x"), std::string::npos);
 }
 
-/// How many of the cards at the top ask to look closer.
+/// Returns the number of cards at the top that ask to look closer.
 int cards_to_look_at(const Report& value) {
   const std::string page = show(value, "check").page;
   const std::string sign = "verdict grade-look-closer";

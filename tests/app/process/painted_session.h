@@ -36,7 +36,7 @@ class PaintedSession {
   /// `board` is the [board] table with its header, whatever is filmed.
   explicit PaintedSession(std::string board);
 
-  /// Where the board is in frame k: the usual way is to and fro, near and far and tilted.
+  /// Place of the board in frame k: the usual way is to and fro, near, far and tilted.
   using Path = std::function<double(int frame)>;
   /// Films it. `moment` maps frames to places along the usual path; the frame itself,
   /// when there is none.

@@ -30,7 +30,7 @@ const fs::path kWalk = marey::testing::sample_results() / "once/walk";
 // within 0.3 m of its segment's origin, and a C3D has 32-bit reals.
 constexpr double kRoundingM = 2e-6;
 
-/// How many samples there are, after each was compared with the motion.
+/// Returns the number of samples, after it compared each with the motion.
 std::size_t compare_with_motion(const MarkerTracks& tracks) {
   const auto body = recordings::read_subject(kWalk / "../subject.toml");
   const auto segments = recordings::read_segments_csv(kWalk / "segments.csv");

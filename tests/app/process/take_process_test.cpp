@@ -90,7 +90,8 @@ TEST(RecordedTake, IsDeclinedWhenItsVersionIsNewer) {
   const ProgramRun run = walk.session().run("track");
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_EQ(lines_of_errors(run.err), 1) << run.err;
-  EXPECT_NE(run.err.find("recorded by a newer marey (format 9"), std::string::npos);
+  EXPECT_NE(run.err.find("recorded by a newer version of marey (format 9"),
+            std::string::npos);
 }
 
 TEST(RecordedTake, GoesOnWithoutAVideoThatIsLostOrEmptyAndEndsWith3) {

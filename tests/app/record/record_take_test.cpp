@@ -179,7 +179,7 @@ struct Handed {
   std::atomic<long> right;
 };
 
-/// How many frames of a camera were handed out by when.
+/// Number of frames of each camera that were handed out before a time.
 struct Count {
   std::chrono::steady_clock::time_point when;
   std::array<long, 2> frames;

@@ -196,7 +196,7 @@ void expect_refused(const fs::path& folder) {
       record_take(cameras, options_for(folder, feed), [&] { return feed.is_done(); });
   ASSERT_FALSE(again);
   EXPECT_EQ(again.error().code, Errc::kBadInput);
-  EXPECT_EQ(again.error().cause, "there is a recording already");
+  EXPECT_EQ(again.error().cause, "a recording already exists");
 }
 
 TEST(RecordTrouble, RefusesToReplaceARecordingAndKeepsIt) {

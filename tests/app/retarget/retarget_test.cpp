@@ -131,7 +131,7 @@ TEST(Retarget, NamesTheClipAndWritesTheDialect) {
   EXPECT_NE(scene.bytes("o/small.bvh").find("LeftUpLeg"), std::string::npos);
 }
 
-/// How far the hips travel along Z. [m]
+/// Returns the travel of the hips along Z. [m]
 double way_m(const Motion& motion) {
   return motion.poses.back().root_in_world.z - motion.poses.front().root_in_world.z;
 }

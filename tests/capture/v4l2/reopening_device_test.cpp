@@ -54,7 +54,7 @@ TEST_F(Reopening, WithoutItsCameraDoesNotBegin) {
   request.path = camera().path;
   const auto device = ReopeningDevice::open(request, {}, {}, kernel_);
   ASSERT_FALSE(device);
-  EXPECT_EQ(device.error().cause, "there is no such device");
+  EXPECT_EQ(device.error().cause, "the device does not exist");
 }
 
 TEST_F(Reopening, ReportsNothingDuringNormalStreaming) {

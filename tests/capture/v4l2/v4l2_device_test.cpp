@@ -219,7 +219,7 @@ TEST(V4l2Settings, KeepTheCamerasValuesWithoutARequest) {
 TEST(V4l2Open, ReportsAMissingDevice) {
   FakeKernel kernel;
   kernel.cameras[0].plugged = false;
-  EXPECT_EQ(refusal(kernel).cause, "there is no such device");
+  EXPECT_EQ(refusal(kernel).cause, "the device does not exist");
 }
 
 TEST(V4l2Open, WithoutPermissionNamesTheGroup) {

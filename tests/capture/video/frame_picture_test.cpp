@@ -85,7 +85,7 @@ TEST(ReadPictures, RefusesAFrameAfterTheEnd) {
 TEST(ReadPictures, NamesAMissingFile) {
   const auto jpeg = jpeg_of_frame("/nowhere/a.mp4", 0);
   ASSERT_FALSE(jpeg);
-  EXPECT_EQ(jpeg.error().cause, "there is no such video or folder");
+  EXPECT_EQ(jpeg.error().cause, "the video or folder does not exist");
 }
 
 }  // namespace

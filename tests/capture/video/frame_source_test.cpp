@@ -183,7 +183,7 @@ TEST(OpenFrames, NamesAMissingFile) {
   const auto source = open_frames("/nowhere/cam9.mp4");
   ASSERT_FALSE(source);
   EXPECT_EQ(source.error().message(),
-            "/nowhere/cam9.mp4: there is no such video or folder. Next: check the path "
+            "/nowhere/cam9.mp4: the video or folder does not exist. Next: check the path "
             "and its spelling.");
 }
 

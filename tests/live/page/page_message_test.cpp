@@ -157,7 +157,7 @@ TEST(PageStatus, HasTheMembersOfTheProtocol) {
             (Keys{"type",
                   "clock_s",
                   "subject",
-                  "doubts",
+                  "warnings",
                   "frame",
                   "rate_hz",
                   "latency_ms",
@@ -178,7 +178,7 @@ TEST(PageStatus, HasTheMembersOfTheProtocol) {
     changed.subject = subject;
     changed.warnings = {"leftFoot has not been seen"};
     EXPECT_EQ(Json::parse(status_json(changed))["subject"], word);
-    EXPECT_EQ(Json::parse(status_json(changed))["doubts"][0], changed.warnings[0]);
+    EXPECT_EQ(Json::parse(status_json(changed))["warnings"][0], changed.warnings[0]);
   }
   EXPECT_EQ(empty["stages"][0],
             Json::parse(R"({"name":"detect cam0","p50_ms":1.0,"p95_ms":2.0})"));

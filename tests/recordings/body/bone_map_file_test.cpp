@@ -68,9 +68,10 @@ TEST(BoneMapFile, NamesTheUnknownWordAndTheNearestOne) {
             "man.bones.toml:3: \"the hips\" is hips already. Next: name another joint, "
             "or \"\" for a bone that the body does not have.");
   EXPECT_EQ(map_refusal("unit_m = 0\n").substr(0, 17), "man.bones.toml:1:");
-  EXPECT_EQ(map_refusal("up = \"+W\"\n"),
-            "man.bones.toml:1: \"up\" is no direction. Next: give one of +X, +Y, +Z, -X, "
-            "-Y, -Z, or three numbers.");
+  EXPECT_EQ(
+      map_refusal("up = \"+W\"\n"),
+      "man.bones.toml:1: \"up\" is not a direction. Next: give one of +X, +Y, +Z, -X, "
+      "-Y, -Z, or three numbers.");
   EXPECT_EQ(map_refusal("up = \"+Z\"\nfront = \"-Z\"\n"),
             "man.bones.toml:2: \"front\" is not across \"up\". Next: give two directions "
             "that are at right angles.");

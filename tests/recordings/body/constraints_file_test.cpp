@@ -240,7 +240,7 @@ TEST(ConstraintsFile, RefusesANonUnitQuaternionAndNormalizesARoundedOne) {
   };
   EXPECT_EQ(
       refusal(orientation("0.5")),
-      "c.xml:2: <orientation> is no unit quaternion. Next: divide it by its length.");
+      "c.xml:2: <orientation> is not a unit quaternion. Next: divide it by its length.");
   const ConstraintFile file = read(orientation("0.8001"));
   const auto& goal = std::get<SegmentOrientation>(file.set.constraints[0].goal);
   EXPECT_NEAR(glm::length(goal.world_from_t_pose), 1.0, 1e-15 /* rounding alone */);
@@ -258,8 +258,8 @@ TEST(ConstraintsFile, RefusesToWriteUnreadableConstraints) {
   EXPECT_EQ(refused([](ConstraintSet& set) {
               set.constraints[1].precision_m = std::numeric_limits<double>::infinity();
             }),
-            "constraint \"clap\": cannot be written: <accuracy> is \"inf\", which is no "
-            "number. Next: write a number, with a decimal point.");
+            "constraint \"clap\": cannot be written: <accuracy> is \"inf\", which is not "
+            "a number. Next: write a number, with a decimal point.");
   EXPECT_EQ(
       refused([](ConstraintSet& set) { set.constraints[1].id = ""; }),
       "constraint \"\": cannot be written: <name> is empty. Next: give it a value.");

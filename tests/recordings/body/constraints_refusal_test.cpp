@@ -13,17 +13,19 @@ namespace {
 using namespace testing;
 
 TEST(ConstraintsFile, RefusesWithLineCauseAndNextStep) {
-  EXPECT_EQ(refusal(annex_with("0.13", "0,13")),
-            "c.xml:17: <Z> is \"0,13\", which is no number. Next: write a number, with a "
-            "decimal point.");
-  EXPECT_EQ(refusal(annex_with("0.13", "nan")),
-            "c.xml:17: <Z> is \"nan\", which is no number. Next: write a number, with a "
-            "decimal point.");
+  EXPECT_EQ(
+      refusal(annex_with("0.13", "0,13")),
+      "c.xml:17: <Z> is \"0,13\", which is not a number. Next: write a number, with a "
+      "decimal point.");
+  EXPECT_EQ(
+      refusal(annex_with("0.13", "nan")),
+      "c.xml:17: <Z> is \"nan\", which is not a number. Next: write a number, with a "
+      "decimal point.");
   EXPECT_EQ(
       refusal(annex_with("0.04", "40000")),
       "c.xml:16: <Y> is 40000, not between -10000 and 10000 m. Next: give it in m.");
   EXPECT_EQ(refusal(annex_with("<range>6", "<range>2.5")),
-            "c.xml:11: <range> is no whole number. Next: correct the number.");
+            "c.xml:11: <range> is not a whole number. Next: correct the number.");
   EXPECT_EQ(refusal(annex_with("<priority>3", "<priority>-3")),
             "c.xml:5: <priority> is -3, not between 1e-06 and 1e+06. Next: correct the "
             "number.");
@@ -34,11 +36,10 @@ TEST(ConstraintsFile, RefusesWithLineCauseAndNextStep) {
   EXPECT_EQ(refusal(annex_with("ctrParade", "ctr&#10;Parade")),
             "c.xml:4: <name> is not one line of text. Next: correct it.");
   EXPECT_EQ(refusal(annex_with("<range>6</range>", "<name>again</name>")),
-            "c.xml:11: <name> is there twice, first on line 4. Next: remove one.");
-  EXPECT_EQ(
-      refusal(annex_with("<segment>", "<segment><a/>")),
-      "c.xml:13: <segment> holds <a> where a value should be. Next: write the value "
-      "alone.");
+            "c.xml:11: <name> is given twice, first on line 4. Next: remove one.");
+  EXPECT_EQ(refusal(annex_with("<segment>", "<segment><a/>")),
+            "c.xml:13: <segment> holds <a> instead of a value. Next: write the value "
+            "alone.");
   EXPECT_EQ(
       refusal(annex_with("<localOffset>", "here <localOffset>")),
       "c.xml:12: <bodyPoint> holds text between its elements. Next: remove the text, "
@@ -54,10 +55,9 @@ TEST(ConstraintsFile, RefusesAnotherFileAndABrokenOne) {
   EXPECT_EQ(refusal("<COLLADA/>"),
             "c.xml:1: this is a file of <COLLADA>, not of <ConstraintsSet>. Next: name "
             "another file.");
-  EXPECT_EQ(
-      refusal("<ConstraintsSet/>\n<ConstraintsSet/>"),
-      "c.xml:2: <ConstraintsSet> stands after the end of <ConstraintsSet>. Next: move "
-      "it inside, or remove it.");
+  EXPECT_EQ(refusal("<ConstraintsSet/>\n<ConstraintsSet/>"),
+            "c.xml:2: <ConstraintsSet> is after the end of <ConstraintsSet>. Next: move "
+            "it inside, or remove it.");
   EXPECT_EQ(
       refusal(annex().substr(0, 300)),
       "c.xml:9: the file ends before its elements do. Next: copy the file again, or "
@@ -70,10 +70,10 @@ TEST(ConstraintsFile, RefusesAnotherFileAndABrokenOne) {
             "c.xml:1: not valid XML: No document element found. Next: correct this line, "
             "or copy the file again.");
   EXPECT_EQ(refusal(std::string("<\0C", 3)),
-            "c.xml:1: this is no text in UTF-8. Next: name an XML file, or save it as "
+            "c.xml:1: this is not UTF-8 text. Next: name an XML file, or save it as "
             "UTF-8.");
   EXPECT_EQ(refusal(annex_with("ctrParade", "par\xe9")),
-            "c.xml:1: this is no text in UTF-8. Next: name an XML file, or save it as "
+            "c.xml:1: this is not UTF-8 text. Next: name an XML file, or save it as "
             "UTF-8.");
   EXPECT_EQ(
       refusal(annex_with("xmlns", "up=\"X\" xmlns")),

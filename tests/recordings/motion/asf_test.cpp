@@ -298,7 +298,8 @@ TEST(Asf, AgreesWithTheBvhOfTheSameTrial) {
 
 TEST(Asf, RejectsAnInvalidSkeleton) {
   EXPECT_EQ(asf_refusal("BVH"),
-            "tiny.asf:1: expected a section (\":root\"): no .asf file. Next: export the "
+            "tiny.asf:1: expected a section (\":root\"): this is not a .asf file. Next: "
+            "export the "
             "file again, or correct that line in a text editor.");
   EXPECT_NE(asf_refusal("").find("the file has no bones"), std::string::npos);
 }
@@ -312,7 +313,7 @@ TEST(Asf, RefusesABrokenSkeletonWithItsLine) {
       {"0 0 90 XYZ", "0 0 90 XYX", "tiny.asf:28: \"xyx\" is not an order of the axes"},
       {"direction 0 -3 0", "direction 0 nan 0", "tiny.asf:26: expected a number"},
       {"direction 0 -3 0", "direction 0 0 0", "tiny.asf:32: the bone \"thigh\" has no"},
-      {"name thigh", "name hip", "tiny.asf:25: the bone \"hip\" is there twice"},
+      {"name thigh", "name hip", "tiny.asf:25: the bone \"hip\" is given twice"},
       {"name thigh", "nom thigh", "tiny.asf:32: a bone has no name"},
       {"  end\n  begin\n     id 2", "     id 2", "tiny.asf:23: a bone has two names"},
       {"length 4", "length 1e9", "the bone \"thigh\" is longer than 10 km"},

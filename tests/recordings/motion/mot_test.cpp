@@ -148,14 +148,14 @@ TEST(Mot, GoesThroughAFile) {
 
 TEST(Mot, BrokenFilesAreRefusedWithTheLine) {
   EXPECT_EQ(mot_refusal(""),
-            "a.mot:1: this is no .mot or .sto file: there is no line endheader. Next: "
+            "a.mot:1: this is not a .mot or .sto file: there is no line endheader. Next: "
             "give a motion or storage file as OpenSim writes it.");
   EXPECT_EQ(mot_refusal("a\nendheader\n\n"),
             "a.mot:3: the file ends after its header. Next: export the file again from "
             "OpenSim.");
   EXPECT_EQ(mot_refusal("a\nendheader\nframe x\n"),
             "a.mot:3: no column is called time; the columns begin with \"frame\". Next: "
-            "name the column of times so, or export the file again.");
+            "name the column of times \"time\", or export the file again.");
   EXPECT_EQ(mot_refusal("a\nendheader\ntime x y\n0 1 2\n1 2\n"),
             "a.mot:5: the row has 2 numbers, and there are 3 columns. Next: correct the "
             "line, or export the file again.");

@@ -267,21 +267,20 @@ TEST_F(CalibrationImport, DistinguishesCalibrationsFromSessionsByContent) {
 
 TEST_F(CalibrationImport, RefusesBrokenOpenCvFilesWithTheirLine) {
   EXPECT_EQ(mistake("a.yml", testing::replace_first(kPair, "image_width: 640\n", "")),
-            "a.yml:2: the file does not say how large the pictures are. Next: add the "
+            "a.yml:2: the file does not state how large the pictures are. Next: add the "
             "keys image_width and image_height, in pixels.");
   for (const char* size : {"[ 1e+30, 480 ]", "[ 640, 0 ]", "[ -1e+300, 480 ]"}) {
     EXPECT_EQ(mistake("a.yml",
                       testing::replace_first(
                           kPair, "image_width: 640", std::string("image_size: ") + size)),
-              "a.yml:2: \"image_size\" is no size of a picture. Next: correct it.");
+              "a.yml:2: \"image_size\" is not a picture size. Next: correct it.");
   }
   EXPECT_EQ(mistake("a.yml", testing::replace_first(kPair, "5.6e+02", "five")),
             "a.yml:8: \"data\" must be an array of 9 numbers. Next: write it as "
             "docs/formats/README.md shows.");
-  EXPECT_EQ(
-      mistake("a.yml", testing::replace_first(kPair, "cols: 5", "cols: 4")),
-      "a.yml:13: \"D1\" has not as many numbers as its rows and cols say. Next: copy "
-      "the file again.");
+  EXPECT_EQ(mistake("a.yml", testing::replace_first(kPair, "cols: 5", "cols: 4")),
+            "a.yml:13: \"D1\" has another number of values than its rows and cols state. "
+            "Next: copy the file again.");
   EXPECT_EQ(mistake("a.yml", testing::replace_first(kPair, "5.5e+02, 0.", "5.5e+02, 3.")),
             "a.yml:4: \"M1\" must be [fx, 0, cx, 0, fy, cy, 0, 0, 1]. Next: calibrate "
             "without skew.");
@@ -377,7 +376,8 @@ TEST(RealCalibration, ReadsALensOfOpenCvOrReportsTheMissingPart) {
     const auto calibration = read_calibration(samples / name);
     return calibration ? "" : calibration.error().cause;
   };
-  EXPECT_EQ(cause("intrinsics.yml"), "the file does not say how large the pictures are");
+  EXPECT_EQ(cause("intrinsics.yml"),
+            "the file does not state how large the pictures are");
   // Lists of images.
   EXPECT_TRUE(cause("calibration.yml").starts_with("no camera in it"));
   EXPECT_TRUE(cause("stereo_calib.xml").starts_with("no camera in it"));

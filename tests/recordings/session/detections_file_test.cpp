@@ -163,9 +163,10 @@ TEST(DetectionsFile, ReturnsNothingForAnotherVersion) {
 TEST(DetectionsFile, RejectsAFileThatIsNoTable) {
   const auto read = parse_detections("frame,tag\n", "k", "d.csv");
   ASSERT_FALSE(read);
-  EXPECT_EQ(read.error().message(),
-            "d.csv:1: this is no table of detections. Next: delete the file; it will be "
-            "made again.");
+  EXPECT_EQ(
+      read.error().message(),
+      "d.csv:1: this is not a table of detections. Next: delete the file; it will be "
+      "made again.");
 }
 
 TEST(DetectionsFile, RefusesAnEmptyFile) {

@@ -97,7 +97,7 @@ TEST(PlanFile, MayListTheWornTags) {
   EXPECT_EQ(number(plan->tags[1].id), 1);
   EXPECT_NE(mistake_of("format = 1\n[[tag]]\nsegment = \"tail\"\n" +
                        plan_text().substr(plan_text().find("[[camera]]")))
-                .find("plan.toml:3: \"tail\" is no segment of a body"),
+                .find("plan.toml:3: \"tail\" is not a segment of a body"),
             std::string::npos);
 }
 

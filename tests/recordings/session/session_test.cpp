@@ -124,8 +124,9 @@ TEST(CheckFiles, NamesTheFirstVideoThatIsNotThereAndItsLine) {
   const Status status = check_files(*session);
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().where, (folder / "session.toml").string() + ":43");
-  EXPECT_EQ(status.error().cause,
-            "trial walk: there is no " + (folder / "videos/walk/right.mp4").string());
+  EXPECT_EQ(
+      status.error().cause,
+      "trial walk: " + (folder / "videos/walk/right.mp4").string() + " does not exist");
 }
 
 TEST(CheckFiles, IsContentWhenAllVideosAreThere) {

@@ -54,8 +54,9 @@ TEST(FrameStamps, AreDeclinedAtTheirLine) {
   EXPECT_TRUE(has(error_of("cam_id,frame_time\n0,1\n0\n"),
                   "timestamps.csv:3: expected 2 fields, found 1"));
   EXPECT_TRUE(has(error_of("cam_id,frame_time\n0,1\n1,soon\n"),
-                  "timestamps.csv:3: \"soon\" is no time in seconds"));
-  EXPECT_TRUE(has(error_of("cam_id,frame_time\n0,1e300\n"), ":2: \"1e300\" is no time"));
+                  "timestamps.csv:3: \"soon\" is not a time in seconds"));
+  EXPECT_TRUE(
+      has(error_of("cam_id,frame_time\n0,1e300\n"), ":2: \"1e300\" is not a time"));
   EXPECT_TRUE(has(error_of("cam_id,frame_time\n0,2\n1,1\n0,1\n"),
                   "timestamps.csv:4: this frame of camera \"0\" is earlier"));
   EXPECT_TRUE(has(error_of("cam_id,frame_time\n0,2\n"), "no times of video \"cam_1\""));

@@ -160,7 +160,7 @@ TEST(TakeFile, IsNotWrittenOverAnother) {
   const auto second = TakeWriter::create(folder / kTakeFile, two_cameras());
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().code, Errc::kBadInput);
-  EXPECT_EQ(second.error().cause, "there is a recording already");
+  EXPECT_EQ(second.error().cause, "a recording already exists");
 }
 
 TEST(TakeFile, ReportsAMissingFile) {
@@ -169,7 +169,7 @@ TEST(TakeFile, ReportsAMissingFile) {
   ASSERT_FALSE(take);
   EXPECT_EQ(take.error().where, (folder / kTakeFile).string());
   EXPECT_EQ(take.error().cause,
-            "the file is missing, so the times of the frames are unknown");
+            "the file does not exist, so the times of the frames are unknown");
 }
 
 TEST(TakeFile, ReportsANewerVersion) {
@@ -178,9 +178,10 @@ TEST(TakeFile, ReportsANewerVersion) {
   testing::run_sql(folder / kTakeFile, "PRAGMA user_version=2");
   const Result<Take> take = read_take(folder / kTakeFile);
   ASSERT_FALSE(take);
-  EXPECT_EQ(take.error().cause,
-            "it was recorded by a newer marey (format 2, this one knows 1)");
-  EXPECT_EQ(take.error().next, "install the newer marey");
+  EXPECT_EQ(
+      take.error().cause,
+      "it was recorded by a newer version of marey (format 2, this version reads 1)");
+  EXPECT_EQ(take.error().next, "install that version");
 }
 
 TEST(TakeFile, ReportsAFileOfAnotherFormat) {
@@ -270,7 +271,7 @@ TEST(TakeFile, ReportsAFailedCreationAndLeavesNoFile) {
     const auto writer = TakeWriter::create(folder / kTakeFile, two_cameras());
     if (writer || writer.error().code != Errc::kDevice) _exit(2);
     const std::string& cause = writer.error().cause;
-    const bool is_expected = cause.rfind("the take cannot be begun: ", 0) == 0 &&
+    const bool is_expected = cause.rfind("the take cannot be started: ", 0) == 0 &&
                              cause.find("no such table") == std::string::npos &&
                              cause.find("not an error") == std::string::npos;
     _exit(is_expected ? 0 : 3);

@@ -155,7 +155,7 @@ TEST_P(EveryAvatar, LandsACapturedJumpWithoutSlidingOrSinking) {
   EXPECT_LT(out.report.after.deepest_penetration_mm, 1.0);
 }
 
-// Where no foot bears, ground adaptation does not change the root's path.
+// While no foot bears, ground adaptation does not change the root's path.
 TEST_P(EveryAvatar, FliesAsHighAsTheSourceInLegLengths) {
   const auto source = testing::truth_motion(truth_file("jump"));
   if (!source) GTEST_SKIP() << "no recording at " << truth_file("jump");

@@ -67,7 +67,7 @@ Body draw_person(Dice& dice) {
   }
   p[B::kHips].y =
       sole_m - p[B::kLeftUpperLeg].y - p[B::kLeftLowerLeg].y - p[B::kLeftFoot].y;
-  // How tall the person is by these lengths.
+  // The stature that follows from these lengths.
   body.stature_m = p[B::kHips].y + p[B::kSpine].y + p[B::kChest].y + p[B::kUpperChest].y +
                    p[B::kNeck].y + p[B::kHead].y + p.head_top_in_head.y;
   return body;
@@ -80,7 +80,7 @@ void glue(LabelledWearer& wearer,
           const std::string& name) {
   const WornPlace place = place_of(name);
   const double stature_m = wearer.person.stature_m;
-  // Where a landmark is anywhere on a segment, its marker is still near the table's
+  // If a landmark may be anywhere on a segment, its marker is still near the table's
   // place.
   const double miss_m = stature_m * std::min(0.7 * place.sigma_per_stature, 0.012);
   glm::dvec3 p = stature_m * place.p_in_segment_per_stature;

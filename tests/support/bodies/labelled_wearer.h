@@ -18,7 +18,7 @@ struct WornLabel {
   std::string landmark;
 };
 
-/// Where a landmark is on an average body, and how far places differ between people.
+/// Place of a landmark on an average body, and its spread between people.
 struct WornPlace {
   HumanBone segment{};
   glm::dvec3 p_in_segment_per_stature{0.0};

@@ -78,7 +78,7 @@ std::vector<Plate> plates() {
   return list;
 }
 
-/// Where a bone ends, in its own frame.
+/// Returns the end of a bone in its own frame.
 glm::dvec3 end_of(B bone, const Proportions& p) {
   if (bone == B::kHead) return p.head_top_in_head;
   if (bone == B::kLeftHand) return p.left_hand_tip_in_hand;

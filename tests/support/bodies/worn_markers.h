@@ -14,8 +14,8 @@ struct MarkerFilm {
   double noise_m = 0.0;  ///< Standard deviation of every coordinate; fixed seed.
 };
 
-/// Where the markers of `body` are while it moves, every one in every frame. Frame 1 is
-/// at time 0.
+/// Returns the places of the markers of `body` during a movement, every marker in every
+/// frame. Frame 1 is at time 0.
 [[nodiscard]] MarkerTracks film_markers(const Body& body,
                                         const Movement& movement,
                                         const MarkerFilm& film = {});

@@ -47,8 +47,8 @@ struct AcclaimSkeleton {
 [[nodiscard]] Result<std::vector<std::vector<double>>> parse_amc(
     const AcclaimSkeleton& skeleton, const std::string& text, const std::string& file);
 
-/// Where bones are: where each starts and how it is turned away from rest, in the frame
-/// of the file (Y up). The origin of a bone's own frame is its start.
+/// Returns the start of each bone and its rotation away from rest, in the frame of the
+/// file (Y up). The origin of a bone's own frame is its start.
 [[nodiscard]] std::vector<RigidTransform> file_from_bones(
     const AcclaimSkeleton& skeleton, const std::vector<double>& frame);
 

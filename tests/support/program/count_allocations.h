@@ -4,8 +4,8 @@
 
 namespace marey::testing {
 
-/// How often operator new was called in this program so far, on any thread. Link
-/// count_allocations.cpp, which replaces it.
+/// Returns the number of calls of operator new in this program so far, on any thread.
+/// Link count_allocations.cpp, which replaces it.
 [[nodiscard]] long allocations();
 
 }  // namespace marey::testing

@@ -146,7 +146,7 @@ std::array<glm::dquat, kHumanBoneCount> joint_rotations(const SimulatedBody& bod
   return turn;
 }
 
-/// How far the origin of a bone is from where a rigid joint would have it, in its
+/// Returns the shift of a bone's origin from its place with a rigid joint, in its
 /// parent's frame.
 glm::dvec3 joint_shift(const SimulatedBody& body, const Attitude& a, B bone) {
   for (std::size_t limb = 0; limb < 4; ++limb) {

@@ -90,7 +90,7 @@ struct SimulatedBody {
 /// and feet near the floor lie flat.
 [[nodiscard]] BoneFrames place(const SimulatedBody& body, const Attitude& attitude);
 
-/// Where a bone ends, in its own frame: the joint of its main child, or its tip.
+/// Returns the end of a bone in its own frame: the joint of its main child, or its tip.
 [[nodiscard]] glm::dvec3 end_of(HumanBone bone, const Proportions& proportions);
 
 }  // namespace marey::testing

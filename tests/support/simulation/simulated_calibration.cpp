@@ -38,7 +38,7 @@ struct Swing {
   }
 };
 
-/// How the board is waved: its face looks from camera to camera.
+/// The motion of the waved board: its face looks from camera to camera.
 struct Wave {
   Swing x, y, z, tilt, roll, yaw;
   std::vector<double> headings_rad;  ///< Towards the cameras, in turn.

@@ -34,7 +34,7 @@ struct Exercise {
   [[nodiscard]] Attitude at(double time_s) const;
 };
 
-/// How thoroughly a range of motion is done.
+/// Thoroughness of a range of motion.
 enum class Diligence {
   kGood,  ///< Every joint in turn, 20 to 40 s.
   kLazy,  ///< All at once and little, some joints not at all, 6 s.

@@ -49,7 +49,7 @@ double distance2_to_origin(const glm::dvec3& p, const glm::dvec3& q) {
   return glm::dot(nearest, nearest);
 }
 
-/// How deep a point is in a part: below 1 is inside.
+/// Returns the depth of a point in a part: below 1 is inside.
 double depth(const FleshPart& part, const glm::dvec3& p) {
   if (is_ellipsoid(part)) return glm::length((p - part.a) / part.radii);
   const glm::dvec3 along = part.b - part.a;

@@ -30,8 +30,8 @@ struct SkinPoint {
   glm::dvec3 out{0.0};
 };
 
-/// Where the ray from a point inside the flesh of `bone` leaves it for good. Parts of
-/// other bones do not count.
+/// Returns the last point at which a ray from inside the flesh of `bone` leaves it. Parts
+/// of other bones do not count.
 [[nodiscard]] SkinPoint skin_point(std::span<const FleshPart> flesh,
                                    HumanBone bone,
                                    const glm::dvec3& from_in_bone,

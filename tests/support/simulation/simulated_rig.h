@@ -17,7 +17,7 @@ struct SimulatedRig {
   std::vector<Camera> calibrated;
   /// Standard deviation of each calibrated centre, per coordinate. [m]
   std::vector<double> centre_sigma_m;
-  double heading_rad = 0.0;  ///< Where a person faces the cameras (Angle::kHeading).
+  double heading_rad = 0.0;  ///< Heading towards the cameras (Angle::kHeading).
 };
 
 /// Draws two to six cameras on a ring of 2.5 to 5 m about the origin, 0.5 to 2.6 m high,

@@ -38,7 +38,7 @@ struct SimulatedSession {
 
   /// Returns the tags as session.toml lists them.
   [[nodiscard]] std::vector<TagOnSegment> declared_tags() const;
-  /// Where all bones truly are at a time of a trial's first camera.
+  /// Returns the true frames of all bones at a time of a trial's first camera.
   [[nodiscard]] BoneFrames truth(const SimulatedTrial& trial, double time_s) const;
   /// One line: cameras, tags, exercise.
   [[nodiscard]] std::string summary() const;

@@ -21,7 +21,7 @@ struct SimulatedScene {
   Attitude reference{};  ///< The posture in which no tag slides.
 };
 
-/// How a trial is recorded.
+/// Recording conditions of a trial.
 struct SimulatedFilm {
   std::string name;  ///< Folder in the videos' names.
   double hz = 30.0;

@@ -245,7 +245,7 @@ std::vector<GluedTag> glue_tags(const SimulatedBody& body,
                  segment,
                  std::max(0.05, std::round(1e3 * placement.size * style.size_m) * 1e-3)};
       tag.segment_from_tag = glue(skin, dice.between(0.003, 0.015), dice);
-      // Where another one is glued already there is no room.
+      // Another tag that is glued there leaves no room.
       if (!has_room(tag, tags)) continue;
       const double slide_m = placement.slide * style.slide_m * dice.between(0.5, 1.0);
       add_skin(tag, std::max(0.0, share), slide_m, range, reference, dice);

@@ -30,7 +30,7 @@ struct GluedTag {
   glm::dvec3 lag_axis{0.0};
 };
 
-/// How many tags a session has, how large, and how firm the skin under them is.
+/// Number and size of a session's tags, and firmness of the skin under them.
 struct TagStyle {
   int max_per_segment = 2;  ///< 1 to 3; at least one is on each needed segment.
   double size_m = 0.08;     ///< On trunk and thighs; less on smaller segments.
@@ -48,8 +48,8 @@ struct TagStyle {
                                               const Attitude& reference,
                                               Dice& dice);
 
-/// Where the tag is on its segment in a posture. `acceleration` is that of the tag in the
-/// segment's frame. [m/s^2]
+/// Returns the pose of the tag on its segment in a posture. `acceleration` is that of the
+/// tag in the segment's frame. [m/s^2]
 [[nodiscard]] RigidTransform segment_from_tag(const GluedTag& tag,
                                               const Attitude& attitude,
                                               const Attitude& reference,

@@ -18,7 +18,7 @@ constexpr std::array<glm::dvec3, kMarkersOfPart> kShape{glm::dvec3{0.05, 0.0, 0.
                                                         glm::dvec3{-0.03, 0.16, -0.05},
                                                         glm::dvec3{0.06, 0.21, -0.02}};
 
-/// Where part `part` is; 1 and 2, 3 and 4 are limbs that hang on the trunk, 0.
+/// Returns the pose of part `part`; 1 and 2, 3 and 4 are limbs that hang on the trunk, 0.
 RigidTransform world_from_part(std::size_t part, double t) {
   const RigidTransform trunk{
       rotation_from_vector({0.2 * std::sin(1.1 * t), 0.8 * std::sin(0.7 * t), 0.1}),

@@ -30,7 +30,7 @@ namespace marey::testing {
 /// "cam0", "cam1"... as the cameras are called.
 [[nodiscard]] std::vector<std::string> names_of(const std::vector<Camera>& cameras);
 
-/// How a detector falls short of the truth.
+/// Errors of a detector.
 struct Disturbance {
   double noise_px = 0.0;  ///< Standard deviation of every corner coordinate.
   TagShrinkage shrinkage;

@@ -15,7 +15,7 @@
 
 namespace marey::testing {
 
-/// Where bones of a body are, in one frame. Y is up; any heading, any unit.
+/// Places of the bones of a body in one frame. Y is up; any heading, any unit.
 using Landmarks = std::map<HumanBone, glm::dvec3>;
 
 /// Reads the landmarks of a captured motion from its file's own numbers: a .bvh with the

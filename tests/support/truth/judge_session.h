@@ -31,7 +31,7 @@ enum class JointKind : int { kShoulder, kElbow, kWrist, kHip, kKnee, kAnkle };
 inline constexpr int kJointKinds = 6;
 inline constexpr int kSources = 3;
 
-/// How many of some values are inside their 95 % region.
+/// Number of values, and of those inside their 95 % region.
 struct Tally {
   int count = 0;
   int inside = 0;

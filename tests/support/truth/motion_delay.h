@@ -11,7 +11,7 @@
 
 namespace marey::testing {
 
-/// Where a joint was reported, and for which time.
+/// A reported place of a joint, with its time.
 struct TimedPlace {
   double time_s = 0.0;
   glm::dvec3 p_in_world{0.0};

@@ -83,7 +83,7 @@ struct DirectionErrors {
                                                  const Motion& result,
                                                  const BoneJoints& result_joints);
 
-/// Where a body faces: across its thighs' joints, level, Y up. Unit.
+/// Returns the direction that a body faces: across its thighs' joints, level, Y up. Unit.
 [[nodiscard]] glm::dvec3 facing_of(const Skeleton& skeleton,
                                    const BoneJoints& joints,
                                    const Pose& pose);

@@ -14,9 +14,9 @@ namespace marey::testing {
 struct Sufficiency {
   bool is_sufficient = false;
   std::string lacking;  ///< Missing parts; empty: none.
-  /// How well the range of motion and the static trial determine each joint between two
-  /// needed segments: standard deviation along the worst direction, in the frames of both
-  /// segments, the larger one. [m]
+  /// Uncertainty of each joint between two needed segments after the range of motion and
+  /// the static trial: standard deviation along the worst direction, in the frames of
+  /// both segments, the larger one. [m]
   std::map<HumanBone, double> joint_sigma_m;
 };
 

@@ -17,7 +17,7 @@
 
 namespace marey::testing {
 
-/// Where a joint really was, by frame. World metres, Y up.
+/// The true place of a joint, by frame. World metres, Y up.
 using TruthJoints = std::map<std::pair<int, HumanBone>, glm::dvec3>;
 
 /// The twelve joints of the limbs (shoulder, elbow, wrist, hip, knee and ankle, left and
@@ -26,7 +26,7 @@ using TruthJoints = std::map<std::pair<int, HumanBone>, glm::dvec3>;
 /// a table.
 [[nodiscard]] std::optional<TruthJoints> truth_joints(const std::filesystem::path& csv);
 
-/// How a segment of the body was really turned, by frame: from the segment's axes to a
+/// The true rotation of a segment of the body, by frame: from the segment's axes to a
 /// world that is Y up.
 using TruthRotations = std::map<std::pair<int, HumanBone>, glm::dquat>;
 

@@ -23,7 +23,7 @@ export interface Pill {
 
 /** `silent_ms`: time since the last status. `status` null: none received yet. */
 export function pillOf(connected: boolean, live: boolean,
-  status: Pick<StatusWords, 'subject' | 'doubts'> | null, silent_ms: number): Pill {
+  status: Pick<StatusWords, 'subject' | 'warnings'> | null, silent_ms: number): Pill {
   if (!connected) return {state: 'offline', words: 'not connected', why: ''};
   if (!live) return {state: 'file', words: 'from a file', why: ''};
   if (!status) return {state: 'waiting', words: WORDS.waiting, why: ''};
@@ -31,6 +31,6 @@ export function pillOf(connected: boolean, live: boolean,
     return {state: 'silent', words: 'marey is silent',
       why: 'marey has sent no status for more than a second: the computer may be too busy'};
   }
-  const {subject, doubts} = status;
-  return {state: subject, words: WORDS[subject] ?? subject, why: (doubts ?? []).join('\n')};
+  const {subject, warnings} = status;
+  return {state: subject, words: WORDS[subject] ?? subject, why: (warnings ?? []).join('\n')};
 }

@@ -77,7 +77,7 @@ export interface StatusWords {
   type: 'status'; clock_s: number;
   subject: 'waiting' | 'tracked' | 'partly' | 'behind' | 'stopped' | 'lost';
   /** Faults of the subject's tracking. */
-  doubts: string[];
+  warnings: string[];
   frame: number; rate_hz: number; latency_ms: {p50: number; p95: number} | null;
   stages: {name: string; p50_ms: number; p95_ms: number}[]; overload: string;
   cameras: {name: string; state: 'streaming' | 'silent' | 'lost'; frames: number; dropped: number;

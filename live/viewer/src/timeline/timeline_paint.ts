@@ -19,7 +19,7 @@ const SUMMARY_PX = 18;
 export const ROW_PX = 14;
 const GAP_PX = 6;
 
-/** How runs of one source are drawn: a colour, and the part of the row that they fill. */
+/** The style of runs of one source: a colour, and the part of the row that they fill. */
 export interface Look {
   colour: string; top?: number; height?: number;
   /** Width that a short run has at least. */
