@@ -156,7 +156,8 @@ TEST(FitProgram, RejectsUnusableInput) {
   refused({in.string(), (folder / "bad.c3d").string()}, "bad.c3d");
   refused({(folder / "none.trc").string()}, "none.trc");
   refused({in.string(), "--unit", "m"}, "m tall");
-  refused({in.string(), "--subject", in.string()}, "pose.trc:1");
+  refused({in.string(), "--subject", in.string()},
+          "pose.trc: this is a TRC file of markers, not a TOML file");
   refused({in.string(), "--avatar", in.string()}, "pose.trc");
   MarkerTracks hidden = film_markers(labelled_person(), standing(labelled_person()), {3});
   for (auto& sample : hidden.samples) sample.reset();

@@ -19,7 +19,7 @@ namespace {
 using testing::ScratchFolder;
 using B = HumanBone;
 
-// The example of docs/formats/README.md: the first toml block after its heading.
+// The example of docs/formats/character.md: the first toml block after its heading.
 std::string documented() {
   return marey::testing::formats_example("character");
 }
@@ -169,7 +169,7 @@ TEST(CharacterFile, WantsALoadNearItsBone) {
 
 TEST(CharacterFile, WantsOneBody) {
   EXPECT_TRUE(says(mistake("avatar = \"../avatars/ann.vrm\"\n", ""),
-                   "does not say whose lengths"));
+                   "does not state whose lengths"));
   EXPECT_TRUE(says(mistake("avatar =", "stature_m = 1.7\navatar ="),
                    "\"stature_m\" is given together with \"avatar\""));
   EXPECT_TRUE(says(mistake("\"../avatars/ann.vrm\"", "\"\""), "the path is empty"));

@@ -13,7 +13,7 @@
 namespace marey::recordings {
 namespace {
 
-// The example of docs/formats/README.md: the first toml block after its heading.
+// The example of docs/formats/floor.md: the first toml block after its heading.
 std::string documented_floor() {
   return marey::testing::formats_example("floor");
 }

@@ -202,8 +202,8 @@ TEST(ForcePlates, OmitUnreadablePlatesAndReportTheReason) {
                 "FORCE_PLATFORM",
                 {"CHANNEL", "", false, {6, 1}, C3dIntegers{1, 2, 3, 4, 5, 7}});
   EXPECT_EQ(plates_of(info, std::vector<double>(6)).notes[0],
-            "plate 1 is left out: FORCE_PLATFORM:CHANNEL names channels that are not "
-            "there");
+            "plate 1 is left out: FORCE_PLATFORM:CHANNEL names channels that do not "
+            "exist");
   info = plate_info(2, {});
   put_parameter(info.groups,
                 "FORCE_PLATFORM",

@@ -13,7 +13,7 @@
 namespace marey::recordings {
 namespace {
 
-/// The example of docs/formats/README.md.
+/// The example of docs/formats/markers.md.
 std::string example() {
   return marey::testing::formats_example("markers", "[markers]");
 }
@@ -60,11 +60,11 @@ TEST(MarkerMap, IsReadFromAFile) {
 TEST(MarkerMap, RejectsLandmarksThatAreNotText) {
   EXPECT_EQ(mistake_of("[markers]\nLASI = 3\n"),
             "map.toml:2: \"LASI\" must be text in quotes. Next: write it as "
-            "docs/formats/README.md "
+            "docs/formats/markers.md "
             "shows.");
   EXPECT_EQ(mistake_of("[markers]\nLASI = [\"left_asis\"]\n"),
             "map.toml:2: \"LASI\" must be text in quotes. Next: write it as "
-            "docs/formats/README.md "
+            "docs/formats/markers.md "
             "shows.");
 }
 
@@ -89,7 +89,7 @@ TEST(MarkerMap, RefusesAFileWithoutLabels) {
             "\"left_asis\".");
   EXPECT_EQ(
       mistake_of(""),
-      "map.toml:1: the key \"markers\" is missing. Next: add it; docs/formats/README.md "
+      "map.toml:1: the key \"markers\" is missing. Next: add it; docs/formats/markers.md "
       "describes it.");
 }
 

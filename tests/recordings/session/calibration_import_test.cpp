@@ -277,7 +277,7 @@ TEST_F(CalibrationImport, RefusesBrokenOpenCvFilesWithTheirLine) {
   }
   EXPECT_EQ(mistake("a.yml", testing::replace_first(kPair, "5.6e+02", "five")),
             "a.yml:8: \"data\" must be an array of 9 numbers. Next: write it as "
-            "docs/formats/README.md shows.");
+            "docs/formats/calibration.md shows.");
   EXPECT_EQ(mistake("a.yml", testing::replace_first(kPair, "cols: 5", "cols: 4")),
             "a.yml:13: \"D1\" has another number of values than its rows and cols state. "
             "Next: copy the file again.");
@@ -317,7 +317,7 @@ TEST_F(CalibrationImport, RefusesBrokenChainsWithTheirLine) {
       "out. Next: number them so.");
   EXPECT_EQ(mistake("a.yaml", testing::replace_first(kChain, "[752, 480]", "[752]")),
             "a.yaml:7: \"resolution\" must be an array of 2 numbers. Next: write it as "
-            "docs/formats/README.md shows.");
+            "docs/formats/calibration.md shows.");
 }
 
 TEST_F(CalibrationImport, RefusesMillimetresAndEndlessReferences) {

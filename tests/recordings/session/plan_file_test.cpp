@@ -13,7 +13,7 @@
 namespace marey::recordings {
 namespace {
 
-/// The example of docs/formats/README.md.
+/// The example of docs/formats/plan.md.
 std::string plan_text() {
   return R"(format = 1
 tag_size_m = 0.08

@@ -22,7 +22,7 @@ TEST(Session, NamesAMissingKey) {
   EXPECT_EQ(
       mistake(with("stature_m = 1.734\n", "")),
       "session.toml:4: the key \"stature_m\" is missing in [subject]. Next: add it; "
-      "docs/formats/README.md describes it.");
+      "docs/formats/session.md describes it.");
 }
 
 TEST(Session, SuggestsTheNearestKeyForAnUnknownOne) {
@@ -52,7 +52,7 @@ TEST(Session, FindsUnknownKeysInEveryTable) {
 TEST(Session, NamesAWrongType) {
   EXPECT_EQ(mistake(with("fps = 10", "fps = \"10\"")),
             "session.toml:33: \"fps\" must be a number. Next: write it as "
-            "docs/formats/README.md shows.");
+            "docs/formats/session.md shows.");
 }
 
 TEST(Session, RefusesANumberThatIsNotFinite) {
