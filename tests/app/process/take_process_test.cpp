@@ -79,7 +79,7 @@ TEST(RecordedTake, WithoutItsTimesIsDeclined) {
   const ProgramRun run = walk.session().run("track");
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_EQ(lines_of_errors(run.err), 1) << run.err;
-  EXPECT_NE(run.err.find("take.sqlite: the file is missing"), std::string::npos)
+  EXPECT_NE(run.err.find("take.sqlite: the file does not exist"), std::string::npos)
       << run.err;
 }
 
