@@ -77,7 +77,7 @@ Status check_readable(const Trial& trial,
 Status check_content(const recordings::Session& session,
                      const Trial& trial,
                      const std::vector<CameraDetections>& found,
-                     const WantedContent& wanted,
+                     const ContentToDetect& wanted,
                      std::vector<Finding>& findings) {
   const bool is_floor = trial.kind == recordings::TrialKind::kFloor;
   for (const TrialVideo& video : trial.videos) {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/check/wanted_content.h"
+#include "app/check/content_to_detect.h"
 #include "core/base/result.h"
 #include "core/detection.h"
 #include "core/finding.h"
@@ -35,7 +35,7 @@ namespace marey::app {
 [[nodiscard]] Status check_content(const recordings::Session& session,
                                    const recordings::Trial& trial,
                                    const std::vector<CameraDetections>& found,
-                                   const WantedContent& wanted,
+                                   const ContentToDetect& wanted,
                                    std::vector<Finding>& findings);
 
 /// Checks that all videos of a trial have one rate, as frames are matched by number.

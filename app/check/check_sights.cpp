@@ -8,7 +8,7 @@
 #include <utility>
 #include <variant>
 
-#include "app/check/board_elsewhere.h"
+#include "app/check/explain_missing_board.h"
 #include "capture/search/detect_wrong_board.h"
 #include "capture/search/survey_boards.h"
 #include "core/base/assert.h"
@@ -99,7 +99,7 @@ Status check_board(const recordings::Session& session,
 Status check_seen(const recordings::Session& session,
                   const Trial& trial,
                   const CameraDetections& camera,
-                  const WantedContent& wanted) {
+                  const ContentToDetect& wanted) {
   const auto in_any = [&](const auto& shows) {
     return std::any_of(camera.frames.begin(), camera.frames.end(), shows);
   };
@@ -112,7 +112,7 @@ Status check_seen(const recordings::Session& session,
   });
   if (sees_it) return Done{};
   if (wanted.target || wanted.shows_grid) {
-    if (const auto other = board_elsewhere(session, trial, camera)) return *other;
+    if (const auto other = explain_missing_board(session, trial, camera)) return *other;
   }
   if (wanted.target) return no_board(camera, *wanted.target, worn_tags(session));
   if (wanted.grid && sees_tags) {
@@ -153,7 +153,7 @@ Status check_seen(const recordings::Session& session,
 Status check_floor_seen(const recordings::Session& session,
                         const Trial& trial,
                         const std::vector<CameraDetections>& found,
-                        const WantedContent& wanted,
+                        const ContentToDetect& wanted,
                         std::vector<Finding>& findings) {
   // The limit of calib::board_views(). Tags on the floor are triangulated from two
   // cameras.
@@ -176,7 +176,7 @@ Status check_floor_seen(const recordings::Session& session,
     Trial whole = trial;
     whole.frames.reset();
     if (seen == 0 && (wanted.target || wanted.shows_grid)) {
-      if (const auto other = board_elsewhere(session, whole, camera)) return *other;
+      if (const auto other = explain_missing_board(session, whole, camera)) return *other;
     }
     poor_views.push_back(fair_finding(
         "floor-view",

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "app/check/content_to_detect.h"
 #include "app/check/match_times.h"
-#include "app/check/wanted_content.h"
 #include "capture/search/detect_videos.h"
 #include "core/base/result.h"
 #include "core/board.h"
@@ -30,7 +30,7 @@ namespace marey::app {
 [[nodiscard]] Status check_seen(const recordings::Session& session,
                                 const recordings::Trial& trial,
                                 const CameraDetections& camera,
-                                const WantedContent& wanted);
+                                const ContentToDetect& wanted);
 
 /// Checks that at least one camera sees enough of the target on the floor. The floor is
 /// computed from the cameras that do; each other camera gives a warning. Errors
@@ -39,7 +39,7 @@ namespace marey::app {
 [[nodiscard]] Status check_floor_seen(const recordings::Session& session,
                                       const recordings::Trial& trial,
                                       const std::vector<CameraDetections>& found,
-                                      const WantedContent& wanted,
+                                      const ContentToDetect& wanted,
                                       std::vector<Finding>& findings);
 
 }  // namespace marey::app

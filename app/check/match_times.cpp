@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "app/check/uneven_videos.h"
+#include "app/check/check_frame_times.h"
 #include "capture/sync/align_frames.h"
 #include "core/base/assert.h"
 #include "core/base/format_text.h"
@@ -285,13 +285,13 @@ Status match_times(const Trial& trial,
   }
   if (has_take(trial)) return match_take(trial, found, findings);
   warn_of_unused_take(trial, findings);
-  if (trial.rate || trial.frames) return check_even(trial, found, findings);
+  if (trial.rate || trial.frames) return check_frame_times(trial, found, findings);
   std::vector<capture::CameraTimes> uneven;
   std::optional<FrameRate> steady;
   for (const TrialVideo& video : trial.videos) {
     const CameraDetections& camera = found[index(video.camera)];
     if (camera.frames.empty()) continue;
-    auto own = uneven_video(video, camera.rate);
+    auto own = find_uneven_video(video, camera.rate);
     if (!own && !steady) steady = camera.rate;
     if (!own) continue;
     const bool usable =
@@ -300,7 +300,7 @@ Status match_times(const Trial& trial,
     findings.push_back(
         fair_finding("uneven",
                      camera.source,
-                     how_uneven(*own, camera.rate) + "; " +
+                     describe_uneven_video(*own, camera.rate) + "; " +
                          (usable ? "its own times are used"
                                  : "its frames are matched by their numbers")));
     if (usable) uneven.push_back(std::move(own->own));

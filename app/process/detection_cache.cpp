@@ -47,7 +47,7 @@ std::string cache_words(const std::vector<TagFamilyUse>& families) {
 /// Returns a key of everything that a cached detection depends on.
 Result<std::string> cache_key(const TrialVideo& video,
                               const Trial& trial,
-                              const WantedContent& wanted) {
+                              const ContentToDetect& wanted) {
   const auto content = recordings::content_key(video.path);
   if (!content) return content.error();
   // Increase the number if the detector finds other corners in the same picture.
@@ -70,7 +70,7 @@ DetectionCache::DetectionCache(std::filesystem::path file, std::string key)
 Result<DetectionCache> DetectionCache::open(const recordings::Session& session,
                                             const Trial& trial,
                                             const TrialVideo& video,
-                                            const WantedContent& wanted,
+                                            const ContentToDetect& wanted,
                                             const std::filesystem::path& out) {
   auto key = cache_key(video, trial, wanted);
   if (!key) return key.error();

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "app/check/wanted_content.h"
+#include "app/check/content_to_detect.h"
 #include "core/base/result.h"
 #include "core/detection.h"
 #include "recordings/session/session.h"
@@ -23,7 +23,7 @@ class DetectionCache {
   [[nodiscard]] static Result<DetectionCache> open(const recordings::Session& session,
                                                    const recordings::Trial& trial,
                                                    const recordings::TrialVideo& video,
-                                                   const WantedContent& wanted,
+                                                   const ContentToDetect& wanted,
                                                    const std::filesystem::path& out);
 
   /// Returns nullopt if there is no file, or if it cannot be read or has another key: the

@@ -23,7 +23,7 @@ Result<std::vector<CameraDetections>> detect(
     const recordings::Session& session,
     const Trial& trial,
     const std::vector<capture::CameraInput>& missing,
-    const WantedContent& wanted,
+    const ContentToDetect& wanted,
     Console& console) {
   if (const Status ok = check_board(session, missing, wanted.target); !ok) {
     return ok.error();
@@ -54,7 +54,7 @@ capture::CameraInput input_of(const Trial& trial, const TrialVideo& video) {
 /// ones, which it writes there. A motion without some of its videos passes.
 Result<std::vector<CameraDetections>> read_or_detect(const recordings::Session& session,
                                                      const Trial& trial,
-                                                     const WantedContent& wanted,
+                                                     const ContentToDetect& wanted,
                                                      const std::filesystem::path& out,
                                                      Console& console,
                                                      std::vector<Finding>& findings) {
@@ -99,7 +99,7 @@ Result<std::vector<CameraDetections>> find_tags(const recordings::Session& sessi
                                                 const std::filesystem::path& out,
                                                 Console& console,
                                                 std::vector<Finding>& findings) {
-  const WantedContent wanted = wanted_content(session, trial);
+  const ContentToDetect wanted = content_to_detect(session, trial);
   auto read = read_or_detect(session, trial, wanted, out, console, findings);
   if (!read) return read.error();
   std::vector<CameraDetections>& found = *read;

@@ -15,7 +15,7 @@
 #include "app/check/check_videos.h"
 #include "app/check/common_sigma.h"
 #include "app/check/find_moved_cameras.h"
-#include "app/check/turned_video.h"
+#include "app/check/find_turned_video.h"
 #include "app/motion/retarget_files.h"
 #include "app/motion/write_motion.h"
 #include "app/process/find_tags.h"

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
-#include "app/check/uneven_videos.h"
+#include "app/check/check_frame_times.h"
 #include "recordings/takes/take_file.h"
 #include "recordings/text/atomic_file.h"
 #include "tests/support/files/run_sql.h"
@@ -205,7 +205,7 @@ struct RatedVideos {
 
 TEST(CheckEven, NamesAnFpsThatIsNotTheVideos) {
   RatedVideos videos({"walk/cam0.mp4", "walk/cam1.mp4"}, 60.0);
-  ASSERT_TRUE(check_even(videos.trial, videos.found, videos.findings));
+  ASSERT_TRUE(check_frame_times(videos.trial, videos.found, videos.findings));
   ASSERT_EQ(videos.findings.size(), 1U);
   const Finding& failure = videos.findings[0];
   EXPECT_EQ(failure.severity, Severity::kPoor);
@@ -217,7 +217,7 @@ TEST(CheckEven, NamesAnFpsThatIsNotTheVideos) {
 
 TEST(CheckEven, NamesSlowMotionAsAReasonForAnotherRate) {
   RatedVideos videos({"walk/cam0.mp4", "walk/cam1.mp4"}, 120.0);
-  ASSERT_TRUE(check_even(videos.trial, videos.found, videos.findings));
+  ASSERT_TRUE(check_frame_times(videos.trial, videos.found, videos.findings));
   ASSERT_EQ(videos.findings.size(), 1U);
   EXPECT_NE(videos.findings[0].next.find("slow_motion = 4"), std::string::npos)
       << videos.findings[0].next;
@@ -226,7 +226,7 @@ TEST(CheckEven, NamesSlowMotionAsAReasonForAnotherRate) {
 TEST(CheckEven, TakesSlowMotionThatIsDeclared) {
   RatedVideos videos({"walk/cam0.mp4", "walk/cam1.mp4"}, 120.0);
   videos.trial.slow_motion = 4.0;
-  ASSERT_TRUE(check_even(videos.trial, videos.found, videos.findings));
+  ASSERT_TRUE(check_frame_times(videos.trial, videos.found, videos.findings));
   EXPECT_TRUE(videos.findings.empty());
 }
 
@@ -234,7 +234,7 @@ TEST(CheckEven, DeclinesSlowMotionThatTheVideosDoNotState) {
   for (const auto& [hz, slow] : {std::pair(120.0, 8.0), std::pair(30.0, 4.0)}) {
     RatedVideos videos({"walk/cam0.mp4", "walk/cam1.mp4"}, hz);
     videos.trial.slow_motion = slow;
-    const Status checked = check_even(videos.trial, videos.found, videos.findings);
+    const Status checked = check_frame_times(videos.trial, videos.found, videos.findings);
     ASSERT_FALSE(checked) << hz;
     EXPECT_EQ(checked.error().code, Errc::kBadInput);
     EXPECT_NE(checked.error().where.find("walk/cam"), std::string::npos)
@@ -245,7 +245,7 @@ TEST(CheckEven, DeclinesSlowMotionThatTheVideosDoNotState) {
 
 TEST(CheckEven, DeclinesAVideoOfAnotherRateAmongOthers) {
   RatedVideos videos({"walk/cam0.mp4", "calib/cam1.mp4"}, 30.0);
-  const Status checked = check_even(videos.trial, videos.found, videos.findings);
+  const Status checked = check_frame_times(videos.trial, videos.found, videos.findings);
   ASSERT_FALSE(checked);
   EXPECT_EQ(checked.error().code, Errc::kBadInput);
   EXPECT_NE(checked.error().where.find("calib/cam1.mp4"), std::string::npos);
@@ -256,7 +256,7 @@ TEST(CheckEven, DeclinesAVideoOfAnotherRateAmongOthers) {
 
 TEST(CheckEven, PassesVideosOfTheGivenRate) {
   RatedVideos videos({"walk/cam0.mp4", "walk/cam1.mp4"}, 30.0);
-  ASSERT_TRUE(check_even(videos.trial, videos.found, videos.findings));
+  ASSERT_TRUE(check_frame_times(videos.trial, videos.found, videos.findings));
   EXPECT_TRUE(videos.findings.empty());
 }
 

@@ -75,7 +75,7 @@ struct FloorScene {
   recordings::Session session;
   Trial trial;
   std::vector<CameraDetections> found;
-  WantedContent wanted;
+  ContentToDetect wanted;
   std::vector<Finding> findings;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/check/uneven_videos.h"
+#include "app/check/check_frame_times.h"
 
 #include <algorithm>
 #include <cmath>
@@ -121,7 +121,7 @@ Status check_stated(const Trial& trial,
 
 }  // namespace
 
-std::optional<UnevenVideo> uneven_video(const TrialVideo& video, FrameRate rate) {
+std::optional<UnevenVideo> find_uneven_video(const TrialVideo& video, FrameRate rate) {
   std::error_code ignored;
   if (std::filesystem::is_directory(video.path, ignored)) return std::nullopt;
   auto times = recordings::video_times(video.path);
@@ -137,7 +137,7 @@ std::optional<UnevenVideo> uneven_video(const TrialVideo& video, FrameRate rate)
   return UnevenVideo{{video.camera, std::move(*times)}, worst_s, other};
 }
 
-std::string how_uneven(const UnevenVideo& video, FrameRate rate) {
+std::string describe_uneven_video(const UnevenVideo& video, FrameRate rate) {
   return format_text(
       "its frame rate varies: frames are up to %.1f ms away from a steady %.2f "
       "Hz",
@@ -145,9 +145,9 @@ std::string how_uneven(const UnevenVideo& video, FrameRate rate) {
       rate.hz);
 }
 
-Status check_even(const Trial& trial,
-                  std::span<const CameraDetections> found,
-                  std::vector<Finding>& findings) {
+Status check_frame_times(const Trial& trial,
+                         std::span<const CameraDetections> found,
+                         std::vector<Finding>& findings) {
   std::vector<std::pair<std::string, FrameRate>> others;  // Sources of another rate.
   std::string steady;  // A source of the trial's own rate.
   for (const TrialVideo& video : trial.videos) {
@@ -158,7 +158,7 @@ Status check_even(const Trial& trial,
       continue;
     }
     const FrameRate rate = trial.rate.value_or(camera.rate);
-    const auto uneven = uneven_video(video, rate);
+    const auto uneven = find_uneven_video(video, rate);
     if (!uneven) {
       steady = camera.source;
       continue;
@@ -168,17 +168,17 @@ Status check_even(const Trial& trial,
       continue;
     }
     if (!trial.rate) {
-      return bad_input(
-          camera.source,
-          how_uneven(*uneven, rate) + ", so frame numbers do not determine the times",
-          "remove \"frames\" from trial " + trial.name +
-              ", so that the times of the video are used; or give the trial "
-              "an \"fps\", if frames with equal numbers belong together");
+      return bad_input(camera.source,
+                       describe_uneven_video(*uneven, rate) +
+                           ", so frame numbers do not determine the times",
+                       "remove \"frames\" from trial " + trial.name +
+                           ", so that the times of the video are used; or give the trial "
+                           "an \"fps\", if frames with equal numbers belong together");
     }
-    findings.push_back(
-        fair_finding("uneven",
-                     camera.source,
-                     how_uneven(*uneven, rate) + "; the session's fps is still used"));
+    findings.push_back(fair_finding(
+        "uneven",
+        camera.source,
+        describe_uneven_video(*uneven, rate) + "; the session's fps is still used"));
   }
   return trial.slow_motion != 1.0 ? check_slow_motion(trial, others, steady)
                                   : check_stated(trial, others, steady, findings);

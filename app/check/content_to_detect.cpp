@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/check/wanted_content.h"
+#include "app/check/content_to_detect.h"
 
 #include <variant>
 
@@ -17,8 +17,9 @@ std::vector<TagFamilyUse> families_to_find(const recordings::Session& session) {
 
 }  // namespace
 
-WantedContent wanted_content(const recordings::Session& session, const Trial& trial) {
-  WantedContent wanted;
+ContentToDetect content_to_detect(const recordings::Session& session,
+                                  const Trial& trial) {
+  ContentToDetect wanted;
   if (!session.families.empty()) wanted.families = families_to_find(session);
   const bool shows_target = trial.kind == recordings::TrialKind::kCalibration ||
                             trial.kind == recordings::TrialKind::kFloor;

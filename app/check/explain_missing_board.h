@@ -14,8 +14,9 @@ namespace marey::app {
 /// the trial, if other frames of its video show that board, or if the video shows it
 /// mirrored or in another tag family. Otherwise nullopt. Precondition: the target is a
 /// board. Cost: reads the video.
-[[nodiscard]] std::optional<Error> board_elsewhere(const recordings::Session& session,
-                                                   const recordings::Trial& trial,
-                                                   const CameraDetections& camera);
+[[nodiscard]] std::optional<Error> explain_missing_board(
+    const recordings::Session& session,
+    const recordings::Trial& trial,
+    const CameraDetections& camera);
 
 }  // namespace marey::app

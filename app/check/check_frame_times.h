@@ -25,19 +25,19 @@ struct UnevenVideo {
 
 /// Compares the frame times of a video with the constant rate `rate`. nullopt if all are
 /// within a quarter of a period, or if the file has no usable times.
-[[nodiscard]] std::optional<UnevenVideo> uneven_video(const recordings::TrialVideo& video,
-                                                      FrameRate rate);
+[[nodiscard]] std::optional<UnevenVideo> find_uneven_video(
+    const recordings::TrialVideo& video, FrameRate rate);
 
 /// Returns the finding as text, without its consequence.
-[[nodiscard]] std::string how_uneven(const UnevenVideo& video, FrameRate rate);
+[[nodiscard]] std::string describe_uneven_video(const UnevenVideo& video, FrameRate rate);
 
 /// Checks that frames can be matched by number, in a trial with `frames` or with `fps`.
 /// Errors (kBadInput): an uneven video in a trial without `fps`; a video with another
 /// constant rate than `fps` while other videos have that of `fps`; declared slow motion
 /// that contradicts the rates of the videos. If all videos have one other constant rate,
 /// this is a poor finding, unless slow motion is declared.
-[[nodiscard]] Status check_even(const recordings::Trial& trial,
-                                std::span<const CameraDetections> found,
-                                std::vector<Finding>& findings);
+[[nodiscard]] Status check_frame_times(const recordings::Trial& trial,
+                                       std::span<const CameraDetections> found,
+                                       std::vector<Finding>& findings);
 
 }  // namespace marey::app

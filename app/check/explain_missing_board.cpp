@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/check/board_elsewhere.h"
+#include "app/check/explain_missing_board.h"
 
 #include <string>
 #include <variant>
@@ -10,9 +10,9 @@
 
 namespace marey::app {
 
-std::optional<Error> board_elsewhere(const recordings::Session& session,
-                                     const recordings::Trial& trial,
-                                     const CameraDetections& camera) {
+std::optional<Error> explain_missing_board(const recordings::Session& session,
+                                           const recordings::Trial& trial,
+                                           const CameraDetections& camera) {
   std::optional<capture::FrameRange> searched;
   std::string frames = "any of its " + std::to_string(camera.frames.size()) + " frames";
   if (trial.frames && !has_take(trial)) {

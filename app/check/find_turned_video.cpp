@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/check/turned_video.h"
+#include "app/check/find_turned_video.h"
 
 #include <cstddef>
 #include <vector>
