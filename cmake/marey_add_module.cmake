@@ -6,17 +6,17 @@ include(${CMAKE_CURRENT_LIST_DIR}/marey_precompile.cmake)
 include(${CMAKE_CURRENT_LIST_DIR}/marey_unity.cmake)
 
 # marey_add_module(<name> HEADERS ... SOURCES ... [USES public...] [HIDES private...]
-#                  [READS private...] [PRECOMPILES header...] [SLOW source...])
+#                  [READS private...] [PRECOMPILES header...] [ALONE source...])
 #
 # One room. HEADERS are public: each must compile alone (the target
 # all_verify_interface_header_sets tries it) and name no heavy library
 # (tests/layering.cmake). USES is seen by the room's includers, HIDES only by its .cpp files
 # and by the headers that are not listed. READS are hidden libraries of headers alone: a
 # program that links the installed room does not need them. PRECOMPILES: see
-# marey_precompile(); SLOW: see marey_unite(). The room is installed
+# marey_precompile(); ALONE: see marey_unite(). The room is installed
 # (cmake/marey_install.cmake).
 function(marey_add_module name)
-  cmake_parse_arguments(M "" "" "HEADERS;SOURCES;USES;HIDES;READS;PRECOMPILES;SLOW" ${ARGN})
+  cmake_parse_arguments(M "" "" "HEADERS;SOURCES;USES;HIDES;READS;PRECOMPILES;ALONE" ${ARGN})
   add_library(marey_${name} STATIC ${M_SOURCES})
   add_library(marey::${name} ALIAS marey_${name})
   target_sources(marey_${name} PUBLIC
@@ -28,7 +28,7 @@ function(marey_add_module name)
                                                    EXPORT_NAME ${name})
   marey_install_module(marey_${name})
   marey_precompile(marey_${name} ${M_PRECOMPILES})
-  marey_unite(marey_${name} ${M_SLOW})
+  marey_unite(marey_${name} ${M_ALONE})
 endfunction()
 
 # marey_find_package(<package> <version> DEBIAN <package that brings it> [COMPONENTS ...])

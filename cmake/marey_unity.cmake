@@ -13,9 +13,8 @@ set(MAREY_UNITY_SIZE 8 CACHE STRING "Sources in one group, about")
 # Compiles the target's sources in groups of about MAREY_UNITY_SIZE, each of one folder:
 # most of a file's time goes into headers that its neighbours include too. Names in unnamed
 # namespaces must therefore be unique within a folder. Sources with compile options of
-# their own stay alone. The sources named here, whose templates take 10 seconds or more
-# (tests/tools/slowest_files.py measures them), are in groups of two. Call it after these
-# options are set.
+# their own stay alone; so do the sources named here, whose templates take 10 seconds or
+# more (tests/tools/slowest_files.py measures them). Call it after these options are set.
 function(marey_unite target)
   if(NOT MAREY_UNITY)
     return()
@@ -28,23 +27,17 @@ function(marey_unite target)
   set(groups)
   foreach(source ${sources})
     get_source_file_property(options ${here}/${source} DIRECTORY ${here} COMPILE_OPTIONS)
-    if(options)
+    if(options OR source IN_LIST ARGN)
       continue()
     endif()
     get_filename_component(folder "${source}" DIRECTORY)
     string(MAKE_C_IDENTIFIER "folder_${folder}" group)
-    if(source IN_LIST ARGN)
-      string(APPEND group "_slow")
-    endif()
     list(APPEND groups ${group})
     list(APPEND of_${group} ${source})
   endforeach()
   list(REMOVE_DUPLICATES groups)
   foreach(group ${groups})
     set(size ${MAREY_UNITY_SIZE})
-    if(group MATCHES "_slow$")
-      set(size 2)
-    endif()
     # A group of one or two costs nearly as much as a full one: up to a quarter of a group
     # is shared out among the others.
     list(LENGTH of_${group} count)
