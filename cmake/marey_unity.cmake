@@ -6,11 +6,11 @@ option(MAREY_UNITY "Compile the sources of a folder in groups" ON)
 if(CMAKE_CXX_CLANG_TIDY OR MAREY_FUZZ)
   set(MAREY_UNITY OFF)
 endif()
-set(MAREY_UNITY_SIZE 8 CACHE STRING "Sources in one group, at most")
+set(MAREY_UNITY_SIZE 8 CACHE STRING "Sources in one group, about")
 
 # marey_unite(<target> [<source>...])
 #
-# Compiles the target's sources in groups of at most MAREY_UNITY_SIZE, each of one folder:
+# Compiles the target's sources in groups of about MAREY_UNITY_SIZE, each of one folder:
 # most of a file's time goes into headers that its neighbours include too. Names in unnamed
 # namespaces must therefore be unique within a folder. Sources with compile options of
 # their own stay alone; so do the sources named here, whose templates take 10 seconds or
@@ -24,6 +24,7 @@ function(marey_unite target)
   list(FILTER sources INCLUDE REGEX "\\.cpp$")
   list(FILTER sources EXCLUDE REGEX "^(/|\\.\\./)")
   list(SORT sources)
+  set(groups)
   foreach(source ${sources})
     get_source_file_property(options ${here}/${source} DIRECTORY ${here} COMPILE_OPTIONS)
     if(options OR source IN_LIST ARGN)
@@ -31,13 +32,26 @@ function(marey_unite target)
     endif()
     get_filename_component(folder "${source}" DIRECTORY)
     string(MAKE_C_IDENTIFIER "folder_${folder}" group)
-    if(NOT DEFINED count_${group})
-      set(count_${group} 0)
+    list(APPEND groups ${group})
+    list(APPEND of_${group} ${source})
+  endforeach()
+  list(REMOVE_DUPLICATES groups)
+  foreach(group ${groups})
+    set(size ${MAREY_UNITY_SIZE})
+    # A group of one or two costs nearly as much as a full one: up to a quarter of a group
+    # is shared out among the others.
+    list(LENGTH of_${group} count)
+    math(EXPR parts "(${count} + ${size} - 1 - ${size} / 4) / ${size}")
+    if(parts LESS 1)
+      set(parts 1)
     endif()
-    math(EXPR number "${count_${group}} / ${MAREY_UNITY_SIZE}")
-    math(EXPR count_${group} "${count_${group}} + 1")
-    set_source_files_properties(${here}/${source} DIRECTORY ${here} PROPERTIES
-      UNITY_GROUP "${group}_${number}")
+    set(index 0)
+    foreach(source ${of_${group}})
+      math(EXPR part "${index} * ${parts} / ${count}")
+      math(EXPR index "${index} + 1")
+      set_source_files_properties(${here}/${source} DIRECTORY ${here} PROPERTIES
+        UNITY_GROUP "${group}_${part}")
+    endforeach()
   endforeach()
   # A class that has a member of an unnamed namespace is suspicious in a header only; g++
   # takes the united sources for headers.

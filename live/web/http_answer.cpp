@@ -7,7 +7,7 @@
 namespace marey::live {
 namespace {
 
-struct Status {
+struct HttpStatus {
   int code = 200;
   const char* name = "OK";
 };
@@ -38,7 +38,7 @@ std::string content_policy(std::string_view host) {
 }
 
 /// Returns status line and headers without the empty line at the end.
-std::string begin_head(const Status& status, const Extras& extras) {
+std::string begin_head(const HttpStatus& status, const Extras& extras) {
   std::string head =
       "HTTP/1.1 " + std::to_string(status.code) + " " + status.name + "\r\n";
   add_header(head,
@@ -58,7 +58,7 @@ std::string begin_head(const Status& status, const Extras& extras) {
   return head;
 }
 
-HttpAnswer words(const Status& status, const char* text, const Extras& extras) {
+HttpAnswer words(const HttpStatus& status, const char* text, const Extras& extras) {
   HttpAnswer out;
   auto body = std::make_shared<const std::string>(std::string(text) + "\n");
   out.head = begin_head(status, extras);
@@ -77,7 +77,7 @@ HttpAnswer send(const WebContent& content,
                 const Extras& extras) {
   const bool known = has_etag(if_none_match, content.etag);
   HttpAnswer out;
-  out.head = begin_head(known ? Status{304, "Not Modified"} : Status{}, extras);
+  out.head = begin_head(known ? HttpStatus{304, "Not Modified"} : HttpStatus{}, extras);
   // The browser revalidates each time; the content is sent only if it changed.
   add_header(out.head, "Cache-Control", content.etag.empty() ? "no-store" : "no-cache");
   if (!content.etag.empty()) add_header(out.head, "ETag", content.etag);

@@ -15,7 +15,7 @@ constexpr double kFirstSigma_s = 0.02;
 // Clocks drift by some tens of microseconds per second; groups of frames by more.
 constexpr double kDriftPerRootSecond_s = 2e-4;
 // Consecutive frames have correlated errors, so together they carry less information.
-constexpr double kShare = 0.3;
+constexpr double kIndependentShare = 0.3;
 // Bound on a camera's lag, against outliers.
 constexpr double kMax_s = 0.03;
 
@@ -114,8 +114,8 @@ void CameraLags::update(std::span<const TagFrameSolver::Lateness> lateness,
   covariance_s2_ += kDriftPerRootSecond_s * kDriftPerRootSecond_s * since_s * spread();
   measure(lateness, factor);
   remove_common(lateness, factor);
-  information_ *= kShare / (frame_s * frame_s);
-  gradient_ *= kShare / frame_s;
+  information_ *= kIndependentShare / (frame_s * frame_s);
+  gradient_ *= kIndependentShare / frame_s;
   // P' = (P^-1 + I)^-1 = P (1 + I P)^-1, which needs no inverse of P.
   const Matrix mixed = Matrix::Identity(count, count) + information_ * covariance_s2_;
   const Eigen::PartialPivLU<Matrix> factored(mixed);

@@ -146,7 +146,7 @@ bool turns_standing(const Stance& stance) {
       glm::conjugate(turn[static_cast<std::size_t>(stance.frames.first)]);
   for (int t = stance.frames.first; t <= stance.frames.last; ++t) {
     const glm::dquat turned = turn[static_cast<std::size_t>(t)] * from;
-    if (glm::length(rotation_vector(turned)) > kTurned_rad) return true;
+    if (glm::length(marey::rotation_vector(turned)) > kTurned_rad) return true;
   }
   return false;
 }

@@ -105,7 +105,7 @@ test('slow motion is shown between frames', async () => {
   await page.getByLabel('Speed').selectOption('1');
 });
 
-test('loop begins anew', async () => {
+test('loop starts again', async () => {
   await page.locator('.loop').click();
   await page.keyboard.press('End');
   await page.keyboard.press(' ');

@@ -47,10 +47,10 @@ async function serve(...words) {
   throw new Error('marey said no address');
 }
 
-async function until(what, holds, patience_ms = 25000) {
-  const end = performance.now() + patience_ms;
+async function until(what, holds, limit_ms = 25000) {
+  const end = performance.now() + limit_ms;
   while (!(await holds())) {
-    assert.ok(performance.now() < end, `waited in vain for: ${what}`);
+    assert.ok(performance.now() < end, `this did not happen: ${what}`);
     await new Promise((done) => setTimeout(done, 50));
   }
 }
@@ -115,7 +115,7 @@ test('results: from the report to the moment, played, scrubbed, dragged, turned 
     await page.keyboard.press('l');
     await page.keyboard.press('End');
     await page.keyboard.press(' ');
-    await until('it to begin anew', async () => {
+    await until('it to start again', async () => {
       const now = await playback(page);
       return now.speed === 2 && now.loop && now.playing && now.frame < 0.5 * last;
     });

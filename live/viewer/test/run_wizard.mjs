@@ -80,7 +80,7 @@ async function drive(page, folder) {
   await wizard.getByText('move for at least five seconds').waitFor();
   await press('Cancel');
   await title('Measure a subject');
-  assert.ok(!await guidance.isVisible(), 'what was called off is not asked for');
+  assert.ok(!await guidance.isVisible(), 'what was cancelled is not asked for');
 
   await press('Start');
   await title('Move every joint');
@@ -123,7 +123,7 @@ async function drive(page, folder) {
 async function goOn(page, press) {
   const end = performance.now() + 120_000;
   while (await page.locator('.section-wizard h3').textContent() === 'Move every joint') {
-    assert.ok(performance.now() < end, 'Next was pressed in vain');
+    assert.ok(performance.now() < end, 'Next had no effect');
     await press('Next').catch(() => {}); // The step went on by itself.
     await page.waitForTimeout(700);
   }

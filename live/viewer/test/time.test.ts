@@ -34,7 +34,7 @@ test('playing takes as long as it was recorded, times the speed', () => {
   assert.ok(Math.abs(film.time - 15) < 1e-9);
 });
 
-test('at the end it stops, or begins anew; play at the end goes to the start', () => {
+test('at the end it stops, or starts again; play at the end goes to the start', () => {
   const film = playback(10);
   film.seek(9.5);
   film.play();
