@@ -11,7 +11,7 @@
 #include "app/check/check_detections.h"
 #include "app/check/check_ids.h"
 #include "app/check/check_session.h"
-#include "app/check/check_standing.h"
+#include "app/check/check_trial_kinds.h"
 #include "app/check/check_videos.h"
 #include "app/check/common_sigma.h"
 #include "app/check/find_moved_cameras.h"
@@ -268,7 +268,8 @@ Status Pipeline::fit() {
   // All trials are checked before the long computation, so swapped videos are reported
   // early.
   if (const Status ok = check_trials(); !ok) return ok;
-  if (auto exercise = assess_exercise(session_, detections_)) add(std::move(*exercise));
+  if (auto exercise = assess_range_of_motion(session_, detections_))
+    add(std::move(*exercise));
   const Stopwatch watch;
   const reconstruct::SubjectPrior prior{session_.subject.name,
                                         session_.subject.stature_m,

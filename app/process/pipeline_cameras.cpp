@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/check/check_standing.h"
+#include "app/check/check_trial_kinds.h"
 #include "app/pages/calibration_html.h"
 #include "app/pages/calibration_json.h"
 #include "app/process/calibrate_session.h"

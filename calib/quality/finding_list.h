@@ -11,7 +11,8 @@
 
 namespace marey::calib {
 
-/// A finding that several cameras may share.
+/// A finding that several cameras may have. It becomes one Finding: assess_calibration()
+/// merges those with equal `cause`, so that ten cameras do not give ten lines.
 struct SharedFinding {
   Finding finding;  ///< Text used when the finding covers one camera.
   /// The value of each camera: "19 %". Empty: the finding is never shared.

@@ -12,6 +12,8 @@
 #include "core/finding.h"
 #include "recordings/session/session.h"
 
+// Checks that trials show what their `kind` says: standing, or the range of motion.
+
 namespace marey::app {
 
 /// Checks that the subject of the static trial stands still. `found` has the name of the
@@ -26,7 +28,7 @@ namespace marey::app {
 /// stays in one place in another motion, as their videos may be exchanged. Uses the tags
 /// on hips and chest; nullopt also if there are fewer than six of them. Cost: as
 /// check_standing().
-[[nodiscard]] std::optional<Finding> assess_exercise(
+[[nodiscard]] std::optional<Finding> assess_range_of_motion(
     const recordings::Session& session,
     const std::map<std::string, std::vector<CameraDetections>>& found);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/check/check_standing.h"
+#include "app/check/check_trial_kinds.h"
 
 #include <array>
 #include <cstdio>
@@ -84,7 +84,7 @@ Status check_standing(const Session& session,
       session.file.string() + ":" + std::to_string(standing->line), cause, next);
 }
 
-std::optional<Finding> assess_exercise(
+std::optional<Finding> assess_range_of_motion(
     const Session& session,
     const std::map<std::string, std::vector<CameraDetections>>& found) {
   const Trial* exercise = session.find(TrialKind::kRangeOfMotion);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/check/check_standing.h"
+#include "app/check/check_trial_kinds.h"
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ TEST(AssessExercise, ReportsATrialThatStaysInOnePlace) {
   Recorded recorded;
   recorded.add("rom", TrialKind::kRangeOfMotion, testing::walking(recorded.body));
   recorded.add("walk", TrialKind::kMotion, testing::range_of_motion(recorded.body));
-  const auto found = assess_exercise(recorded.session, recorded.found);
+  const auto found = assess_range_of_motion(recorded.session, recorded.found);
   ASSERT_TRUE(found);
   EXPECT_NE(found->cause.find("in trial rom"), std::string::npos) << found->message();
   EXPECT_NE(found->next.find("the videos of rom and walk"), std::string::npos)
@@ -55,14 +55,14 @@ TEST(AssessExercise, PassesACorrectSession) {
   recorded.add("rom", TrialKind::kRangeOfMotion, testing::range_of_motion(recorded.body));
   recorded.add("walk", TrialKind::kMotion, testing::walking(recorded.body));
   recorded.add("stand", TrialKind::kMotion, testing::standing(recorded.body));
-  EXPECT_FALSE(assess_exercise(recorded.session, recorded.found));
+  EXPECT_FALSE(assess_range_of_motion(recorded.session, recorded.found));
 }
 
 TEST(AssessExercise, PassesIfTheSubjectWalksInAllTrials) {
   Recorded recorded;
   recorded.add("rom", TrialKind::kRangeOfMotion, testing::walking(recorded.body));
   recorded.add("walk", TrialKind::kMotion, testing::walking(recorded.body));
-  EXPECT_FALSE(assess_exercise(recorded.session, recorded.found));
+  EXPECT_FALSE(assess_range_of_motion(recorded.session, recorded.found));
 }
 
 TEST(CheckStanding, NamesTheTrialInWhichTheSubjectDoesStandStill) {
