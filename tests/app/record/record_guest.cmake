@@ -38,7 +38,7 @@ if(NOT MAREY_SANITIZE AND MAREY_STATIC_AVFORMAT AND MAREY_STATIC_AVCODEC AND
     ${MAREY_STATIC_AVUTIL} ${MAREY_STATIC_SQLITE} ${MAREY_STATIC_TURBOJPEG}
     ${MAREY_STATIC_Z} m)
   target_link_options(record_guest PRIVATE
-    -static -s LINKER:--unresolved-symbols=ignore-all,--no-warnings)
+    -static -s -fuse-ld=bfd LINKER:--unresolved-symbols=ignore-all,--no-warnings)
   add_test(NAME app/RecordInAMachine
     COMMAND ${PROJECT_SOURCE_DIR}/tests/capture/run_v4l2_guest.sh
             $<TARGET_FILE:record_guest> ${MAREY_GUEST_KERNEL}
