@@ -38,7 +38,7 @@ struct FitRun {
   FitTimes times;
 };
 
-/// Returns the content of fit.json; docs/formats/README.md has the keys.
+/// Returns the content of fit.json; docs/formats/fit.md has the keys.
 [[nodiscard]] nlohmann::ordered_json fit_json(const FitRun& run);
 
 /// Returns the reason why a label is not used: "is never seen".

@@ -19,7 +19,7 @@ struct Repair {
   reconstruct::RepairedTracks repaired;
 };
 
-/// Returns the content of OUT.repair.json; docs/formats/README.md has the keys.
+/// Returns the content of OUT.repair.json; docs/formats/repair.md has the keys.
 [[nodiscard]] nlohmann::ordered_json repair_json(const Repair& repair);
 
 /// Returns OUT.repair.csv: `frame,time,marker,method,sigma`, one row for every changed

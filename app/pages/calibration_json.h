@@ -10,7 +10,7 @@
 
 namespace marey::app {
 
-/// Returns the content of calibration.json (docs/formats/README.md).
+/// Returns the content of calibration.json (docs/formats/calibration.md).
 [[nodiscard]] nlohmann::ordered_json calibration_json(
     const calib::CalibrationReport& report);
 

@@ -38,7 +38,7 @@ struct PlanReport {
 /// "right ankle".
 [[nodiscard]] std::string joint_name(HumanBone bone);
 
-/// Returns the content of plan.json (docs/formats/README.md).
+/// Returns the content of plan.json (docs/formats/plan.md).
 [[nodiscard]] nlohmann::ordered_json plan_json(const PlanReport& report);
 
 /// Returns the tables of heights and of the body's joints for a terminal, with lines of

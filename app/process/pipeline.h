@@ -67,7 +67,8 @@ class Pipeline {
   /// motion.glb, motion.npz, markers.c3d and markers.trc. Reads calibration.toml and
   /// subject.toml.
   [[nodiscard]] Status solve();
-  /// Retargets every solved motion to every avatar and writes AVATAR.glb and AVATAR.bvh.
+  /// Retargets every solved motion to every avatar. Writes AVATAR.bvh, and AVATAR.glb and
+  /// AVATAR.vrma where the avatar has a mesh and the bones of VRM's humanoid.
   [[nodiscard]] Status retarget();
   /// Writes OUT/report.json and OUT/report.html.
   [[nodiscard]] Status write_report();

@@ -61,7 +61,7 @@ struct RetargetRun {
 /// Precondition: measure_source() was called; source and avatar have equally many frames.
 [[nodiscard]] Status measure_avatar(const RetargetRun& run, AvatarResult& avatar);
 
-/// Returns the figures of one avatar for `--json`; docs/formats/README.md has the keys.
+/// Returns the figures of one avatar for `--json`; docs/formats/retarget.md has the keys.
 [[nodiscard]] nlohmann::ordered_json avatar_json(const RetargetRun& run,
                                                  const AvatarResult& avatar);
 /// Returns the figures of all avatars for `--json`.

@@ -124,6 +124,9 @@ Error usage_error(const CLI::App& app,
   }
   if (commands.empty()) return without_command(app, left);
   if (const auto error = superfluous(app, *commands.front(), called, left)) return *error;
+  if (problem.get_name() == "ExcludesError") {
+    return refused(called, text, "leave one of the two out");
+  }
   return refused(called, text, "add it; " + called + " --help describes the arguments");
 }
 

@@ -11,7 +11,7 @@
 namespace marey {
 
 /// Kind of an error, by the party able to fix it; determines the program's exit code
-/// (docs/formats/README.md).
+/// (docs/formats/exit_codes.md).
 enum class Errc {
   kInternal,  ///< A bug in marey.
   kBadInput,  ///< A file or setting of the user.

@@ -11,7 +11,7 @@
 namespace marey::reconstruct {
 
 /// The coordinates of OpenSim's models of the whole body, by the names and in the order
-/// of Rajagopal2016. docs/formats/README.md defines the rotation and the sign of each.
+/// of Rajagopal2016. docs/formats/joint_angles.md defines the rotation and the sign of each.
 enum class Coordinate : int {
   kPelvisTilt,
   kPelvisList,
@@ -85,7 +85,7 @@ struct JointAngleOptions {
 /// hanging arms and palms that face forward.
 /// Each is the rotation of a bone relative to another, so that lengths of the body have
 /// no effect. Rotations of this skeleton that a model's joint does not have are left out:
-/// see docs/formats/README.md.
+/// see docs/formats/joint_angles.md.
 /// Angles are continuous: they exceed 180 degrees rather than jump. Two triples of angles
 /// describe each rotation of pelvis, hip, trunk, shoulder or wrist. The sequence of
 /// triples with the smallest steps is chosen, and for equal steps the one nearest to the

@@ -36,7 +36,7 @@ struct SubjectFit {
   /// Tags, except those of `left_out`, that were not seen well enough to be placed; the
   /// body does not contain them.
   std::vector<TagId> unplaced;
-  /// In the order of human_limbs(). Each reason is also one of `warnings`; if `warnings`
+  /// In the order of human_limbs(). Each reason is also in `findings`; if `findings`
   /// has no others, the rest of the body is trusted.
   std::vector<LeftOutSegment> left_out;
   /// Reasons not to trust the fit (poor), each with the segment and the next step:

@@ -25,7 +25,7 @@ namespace marey::recordings {
                                     const BoneMap& map,
                                     const Skeleton& skeleton);
 
-/// Parses the text of a bone map for a skeleton; docs/formats/README.md lists its keys.
+/// Parses the text of a bone map for a skeleton; docs/formats/bodies.md lists its keys.
 /// `file` is its name in error messages. Errors (kBadInput), with the line: not TOML; an
 /// unknown key or bone, or a joint that the skeleton lacks or has twice, with the nearest
 /// known name; one joint for two bones; an invalid unit; "up" or "front" that are no

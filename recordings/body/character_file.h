@@ -11,7 +11,7 @@
 
 namespace marey::recordings {
 
-/// Returns the text of character.toml (docs/formats/README.md): source of the lengths,
+/// Returns the text of character.toml (docs/formats/character.md): source of the lengths,
 /// masses, limits in degrees, loads. parse_character_spec() returns the same doubles; for
 /// angles without an exact number of degrees, the nearest. Precondition: every number is
 /// finite.

@@ -13,7 +13,7 @@
 namespace marey::recordings {
 
 /// The constraints of a motion, in the XML of Kulpa (2005, annex A).
-/// docs/formats/README.md lists the elements.
+/// docs/formats/constraints.md lists the elements.
 struct ConstraintFile {
   ConstraintSet set;
   /// Anomalies of the file, with their lines: unknown elements, which are kept in

@@ -11,7 +11,7 @@
 
 namespace marey::recordings {
 
-/// Returns the text of a floor's file (docs/formats/README.md). parse_floor() returns the
+/// Returns the text of a floor's file (docs/formats/floor.md). parse_floor() returns the
 /// same doubles, except for rounding of the heights and slopes of ramps, which the file
 /// stores by their edges. Preconditions: every number is finite; a ramp rises along X or
 /// Z, not both.

@@ -16,7 +16,7 @@ namespace marey::recordings {
 
 /// Returns the text of calibration.toml: a table per camera, named after it, with the
 /// keys of Pose2Sim and Caliscope (size, matrix, distortions, rotation, translation,
-/// fisheye) and marey's own. docs/formats/README.md lists them all. parse_calibration()
+/// fisheye) and marey's own. docs/formats/calibration.md lists them all. parse_calibration()
 /// returns the same doubles. Precondition: one quality and one clock per camera; every
 /// number is finite.
 [[nodiscard]] std::string calibration_text(const Calibration& calibration);

@@ -37,7 +37,7 @@ struct CapturePlan {
   std::vector<CameraQuality> quality;  ///< Per camera of a calibration; empty for a plan.
 };
 
-/// Reads a plan.toml (docs/formats/README.md), or the cameras of a calibration.toml like
+/// Reads a plan.toml (docs/formats/plan.md), or the cameras of a calibration.toml like
 /// parse_calibration(): a file without [[camera]]. Planned cameras have no distortion and
 /// level images. `file` is the name of the text in error messages.
 ///

@@ -11,7 +11,7 @@
 
 namespace marey::recordings {
 
-/// Returns the text of subject.toml (docs/formats/README.md): every joint centre in its
+/// Returns the text of subject.toml (docs/formats/subject.md): every joint centre in its
 /// parent's frame, tips, and the positions of tags and markers, each with its standard
 /// deviation; the warnings about the body. parse_subject() returns the same doubles.
 /// Precondition: every number is finite.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to recordings/: content of a live take's file (docs/formats/README.md).
+// Private to recordings/: content of a live take's file (docs/formats/live_takes.md).
 namespace marey::recordings {
 
 inline constexpr int kLiveTakeApplication = 0x6d61726c;  ///< "marl", application_id.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to recordings/: content of a take's file (docs/formats/README.md).
+// Private to recordings/: content of a take's file (docs/formats/takes.md).
 namespace marey::recordings {
 
 inline constexpr int kTakeApplication = 0x6d617265;  ///< "mare", SQLite's application_id.

@@ -10,7 +10,7 @@
 #include "core/live_instant.h"
 
 // Private to recordings/: the cameras' detections of an instant, as bytes
-// (docs/formats/README.md).
+// (docs/formats/live_takes.md).
 namespace marey::recordings {
 
 /// Serializes the views; replaces `out`. Numbers are exact.
