@@ -14,7 +14,7 @@ namespace marey::app {
 namespace {
 
 // Errors of calibrations and lenses are some tenths of a pixel at the body. A move of 1
-// px doubles the error of joints (docs/accuracy/README.md, "Simulated camera faults").
+// px doubles the error of joints (docs/accuracy/camera_faults.md).
 constexpr double kFairPx = 0.5;
 constexpr double kPoorPx = 0.8;
 // Unit: squared sigmas. Views of one tag share their errors: chance alone reaches 100,

@@ -40,7 +40,7 @@ void write_row(std::ostream& out, const SessionRow& row);
 /// Reads the rows of such a file. Returns nullopt for any other content.
 [[nodiscard]] std::optional<std::vector<SessionRow>> read_rows(std::istream& in);
 
-/// Prints the table of docs/accuracy/README.md, "Simulated sessions".
+/// Prints the table of docs/accuracy/simulated_sessions.md.
 void print_table(const std::vector<SessionRow>& rows);
 
 }  // namespace marey::benchmarks

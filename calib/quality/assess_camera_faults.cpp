@@ -20,7 +20,7 @@ namespace {
 constexpr double kFairMovePx = 0.6;
 constexpr double kPoorMovePx = 1.0;
 // In squared sigmas. The largest value in simulated recordings without a fault was 117
-// with a board and 352 with a wand (docs/accuracy/README.md, "Simulated camera faults").
+// with a board and 352 with a wand (docs/accuracy/camera_faults.md).
 constexpr double kMinMoveGain = 400.0;
 // Small moves are also detected if frames are not simultaneous, as if a camera skips
 // frames.

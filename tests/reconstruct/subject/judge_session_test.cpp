@@ -156,7 +156,7 @@ TEST(SimulatedSession, IsTheSameTwice) {
   }
 }
 
-// Noise by the law of docs/accuracy/README.md, "Finding tags": 0.08 to 0.10 px at sides
+// Noise by the law of docs/accuracy/tags.md: 0.08 to 0.10 px at sides
 // of 12 to 28 px, less above; claimed sigmas between 0.9 and 1.15 of it.
 TEST(SimulatedSession, CornersErrByTheMeasuredLaw) {
   std::uint64_t seed = 0;

@@ -31,7 +31,7 @@ struct SimulatedFilm {
   double sigma_factor = 1.0;  ///< Claimed noise of corners over the true one.
 };
 
-/// Returns the cameras' detections. They follow docs/accuracy/README.md, "Finding tags"
+/// Returns the cameras' detections. They follow docs/accuracy/tags.md
 /// and "Plans". The chance of reading a tag falls with a shorter edge, a larger angle and
 /// more motion blur. Corners err by 0.08 to 0.10 px; 3 % of the variance is common to all
 /// sightings of a tag by one camera. Flesh hides tags. Sightings drop out at random and
