@@ -268,8 +268,9 @@ Status Pipeline::fit() {
   // All trials are checked before the long computation, so swapped videos are reported
   // early.
   if (const Status ok = check_trials(); !ok) return ok;
-  if (auto exercise = assess_range_of_motion(session_, detections_))
+  if (auto exercise = assess_range_of_motion(session_, detections_)) {
     add(std::move(*exercise));
+  }
   const Stopwatch watch;
   const reconstruct::SubjectPrior prior{session_.subject.name,
                                         session_.subject.stature_m,

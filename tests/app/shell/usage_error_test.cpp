@@ -54,6 +54,11 @@ TEST(UsageError, NamesAMissingArgument) {
   expect_usage_error({"process", "--out", "x"}, {"session is required"});
 }
 
+TEST(UsageError, AsksToLeaveOneOfTwoOptionsOut) {
+  expect_usage_error({"live", "session.toml", "--calibrate", "--record", "x"},
+                     {"excludes", "leave one of the two out"});
+}
+
 TEST(UsageError, NamesAnOptionWithoutItsValue) {
   expect_usage_error({"process", "session.toml", "--out"}, {"--out", "process --help"});
 }
