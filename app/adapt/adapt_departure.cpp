@@ -95,8 +95,8 @@ void compare_without_balance(const Motion& source,
     if (degrees_at(departure, frame) <= kFarTrunk_deg) continue;
     if (kDegreesPerRadian * other[t].rad > kNearTrunk_deg) continue;
     ++departure.needless_frames;
-    const int worst = departure.worst_needless_frame;
-    if (worst < 0 || degrees_at(departure, frame) > degrees_at(departure, worst)) {
+    const auto worst = departure.worst_needless_frame;
+    if (!worst || degrees_at(departure, frame) > degrees_at(departure, *worst)) {
       departure.worst_needless_frame = frame;
     }
   }
@@ -136,8 +136,8 @@ std::string departure_summary(const AdaptDeparture& departure) {
 
 std::string departure_text(const AdaptDeparture& departure, const Motion& motion) {
   if (departure.far_frames == 0) return "";
-  if (departure.needless_frames > 0) {
-    const int frame = departure.worst_needless_frame;
+  if (departure.worst_needless_frame) {
+    const int frame = *departure.worst_needless_frame;
     return format_text(
         "balance turns %s by up to %.0f degrees from its source (frame %d, at %.2f s), "
         "in %d frames in which the same constraints are met without balance",
@@ -161,8 +161,8 @@ std::string departure_text(const AdaptDeparture& departure, const Motion& motion
 }
 
 bool is_needlessly_far(const AdaptDeparture& departure) {
-  const int frame = departure.worst_needless_frame;
-  return frame >= 0 && degrees_at(departure, frame) > kMaxTrunk_deg;
+  const auto frame = departure.worst_needless_frame;
+  return frame && degrees_at(departure, *frame) > kMaxTrunk_deg;
 }
 
 }  // namespace marey::app

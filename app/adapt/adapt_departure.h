@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,9 +33,9 @@ struct AdaptDeparture {
   int far_frames = 0;   ///< Number of frames in which the trunk is far from its source.
   /// Number of far frames in which balance alone is the cause: without balance the trunk
   /// stays near its source, and every constraint met with balance is met. And the worst
-  /// of these frames; -1: none.
+  /// of these frames; nullopt: none.
   int needless_frames = 0;
-  int worst_needless_frame = -1;
+  std::optional<int> worst_needless_frame;
 };
 
 /// Measures the departure of `adapted` from `source`.

@@ -38,12 +38,12 @@ std::vector<char> try_more_iterations(const AdaptBody& body,
   if (options.adapt.max_iterations >= usual) return out;
   options.adapt.max_iterations = usual;
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    if (!kept[i].ran_out || kept[i].worst_frame < 0) continue;
-    const auto at = static_cast<std::size_t>(kept[i].worst_frame);
+    if (!kept[i].ran_out || !kept[i].worst_frame) continue;
+    const auto at = static_cast<std::size_t>(*kept[i].worst_frame);
     const Motion& motion = body.reference;
     const Motion one{motion.skeleton,
                      motion.rate,
-                     motion.first_frame + kept[i].worst_frame,
+                     motion.first_frame + *kept[i].worst_frame,
                      {motion.poses[at]}};
     const auto again = retarget::adapt_motion(
         one, body.character, constraints, bearing_in(at, supports), options);

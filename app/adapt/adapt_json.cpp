@@ -39,8 +39,8 @@ Json figures_of(const KeptConstraint& kept, const AdaptRun& run) {
     out["mean_error_mm"] = 1e3 * kept.mean_error_m;
     out["worst_error_mm"] = 1e3 * kept.worst_error_m;
   }
-  out["worst_frame"] = kept.worst_frame;
-  out["worst_time_s"] = time_of(run, kept.worst_frame);
+  out["worst_frame"] = *kept.worst_frame;
+  out["worst_time_s"] = time_of(run, *kept.worst_frame);
   return out;
 }
 
@@ -169,7 +169,7 @@ std::string miss_of(const KeptConstraint& kept, const AdaptRun& run) {
                      kept.is_orientation ? kDegreesPerRadian * kept.worst_error_rad
                                          : 1e3 * kept.worst_error_m,
                      kept.is_orientation ? "degrees" : "mm",
-                     time_of(run, kept.worst_frame));
+                     time_of(run, *kept.worst_frame));
 }
 
 constexpr const char* kDepartureAdvice =

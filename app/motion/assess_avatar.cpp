@@ -42,7 +42,7 @@ void assess_skin(const std::string& name, AvatarVerdict& out) {
   const std::optional<retarget::SkinPart> part = out.beyond_source.part;
   const std::string words =
       part ? " of the " + std::string(retarget::name(*part)) : std::string();
-  add(name + ", frame " + std::to_string(out.beyond_source.frame),
+  add(name + ", frame " + std::to_string(*out.beyond_source.frame),
       text("the skin%s is %.0f mm below the floor, where the source is not",
            words.c_str(),
            deep_mm),
@@ -66,7 +66,7 @@ void assess_direction(const std::string& name,
            segment.c_str(),
            apart_deg,
            glm::degrees(direction.worst_rad),
-           direction.worst_frame),
+           *direction.worst_frame),
       "check with marey inspect --picture that the bones of both bodies are right, and "
       "that their rest poses are those of a body",
       apart_deg > poor_deg,
@@ -78,7 +78,7 @@ void assess_foot(const std::string& name,
                  AvatarVerdict& out) {
   const double apart_deg = glm::degrees(foot.sustained_rad);
   if (apart_deg <= kFarFoot_deg) return;
-  add(name + ", frame " + std::to_string(foot.sustained_frame),
+  add(name + ", frame " + std::to_string(*foot.sustained_frame),
       text(
           "the %s points %.0f degrees or more away from the source's for %.2f s (at most "
           "%.0f, in frame %d)",
@@ -86,7 +86,7 @@ void assess_foot(const std::string& name,
           apart_deg,
           retarget::kSustained_s,
           glm::degrees(foot.worst_rad),
-          foot.worst_frame),
+          *foot.worst_frame),
       "look at that frame with marey view; --no-ground keeps feet as the source has them",
       apart_deg > kPoorFoot_deg,
       out);
@@ -95,7 +95,7 @@ void assess_foot(const std::string& name,
 void assess_posture(const std::string& name, AvatarVerdict& out) {
   const retarget::PostureFigures& posture = out.posture;
   if (posture.source_fastest > kPoorSourceSpeed) {
-    add(name + ", frame " + std::to_string(posture.source_fastest_frame),
+    add(name + ", frame " + std::to_string(*posture.source_fastest_frame),
         text("the source motion moves its %s at %.0f body heights per second: a sample "
              "there is wrong, and it affects the frames around it",
              std::string(marey::name(posture.source_fastest_bone)).c_str(),
@@ -123,7 +123,7 @@ void assess_posture(const std::string& name, AvatarVerdict& out) {
     assess_direction(name, segment, kFarPosture_deg, kPoorPosture_deg, out);
   }
   if (posture.fastest > kPoorSpeed && posture.fastest > 2.0 * posture.source_fastest) {
-    add(name + ", frame " + std::to_string(posture.fastest_frame),
+    add(name + ", frame " + std::to_string(*posture.fastest_frame),
         text("%s moves at %.0f body heights per second, the source at most at %.0f",
              std::string(marey::name(posture.fastest_bone)).c_str(),
              posture.fastest,
@@ -246,7 +246,7 @@ Status assess_files(const Motion& made,
     const double off_mm = 1e3 * figures.worst_place_m;
     out.reread_off_mm = std::max(out.reread_off_mm.value_or(0.0), off_mm);
     if (off_mm > kRereadPlace_mm) {
-      add(file.path.string() + ", frame " + std::to_string(figures.worst_frame),
+      add(file.path.string() + ", frame " + std::to_string(*figures.worst_frame),
           text("the file has %s %.0f mm from where it was solved",
                std::string(marey::name(figures.worst_bone)).c_str(),
                off_mm),
@@ -256,7 +256,7 @@ Status assess_files(const Motion& made,
     }
     const double lost_mm = 1e3 * figures.lost_m;
     if (lost_mm > kLostPlace_mm) {
-      add(file.path.string() + ", frame " + std::to_string(figures.lost_frame),
+      add(file.path.string() + ", frame " + std::to_string(*figures.lost_frame),
           text("the file has %s %.0f mm from where it was solved: a joint above it is no "
                "bone of VRM",
                std::string(marey::name(figures.lost_bone)).c_str(),
@@ -322,7 +322,7 @@ Result<AvatarVerdict> assess_avatar(const std::string& name,
   if (grounded) assess_skin(name, out);
   assess_posture(name, out);
   if (out.arms_in_body_mm > kDeepArms_mm) {
-    add(name + ", frame " + std::to_string(made.report.hands.arms.worst_frame),
+    add(name + ", frame " + std::to_string(*made.report.hands.arms.worst_frame),
         text("an arm is %.0f mm deeper in the body than the source's",
              out.arms_in_body_mm),
         "look at that frame with marey view",

@@ -88,10 +88,9 @@ class LostDistance {
     std::size_t below = joint;
     for (auto at = skeleton_.joints[joint].parent; at; at = skeleton_[*at].parent) {
       if (!skeleton_[*at].bone) continue;
-      lost_m += std::abs(glm::distance(world[below].translation,
-                                       world[index(*at)].translation) -
-                         glm::distance(rest_[below].translation,
-                                       rest_[index(*at)].translation));
+      lost_m += std::abs(
+          glm::distance(world[below].translation, world[index(*at)].translation) -
+          glm::distance(rest_[below].translation, rest_[index(*at)].translation));
       below = index(*at);
     }
     return lost_m;
@@ -150,7 +149,7 @@ Result<std::optional<RereadFigures>> reread_motion(const WrittenFile& file,
           out.lost_frame = static_cast<int>(t);
         }
       }
-      if (out.worst_frame >= 0 && off_m <= out.worst_place_m) continue;
+      if (out.worst_frame && off_m <= out.worst_place_m) continue;
       out.worst_place_m = off_m;
       out.worst_bone = *bone;
       out.worst_frame = static_cast<int>(t);

@@ -214,7 +214,7 @@ Json avatar_json(const ReportTrial& trial) {
          {"penetration_part",
           body.penetration_part.empty() ? Json(nullptr) : Json(body.penetration_part)},
          {"penetration_frame",
-          body.penetration_frame < 0 ? Json(nullptr) : Json(body.penetration_frame)},
+          body.penetration_frame ? Json(*body.penetration_frame) : Json(nullptr)},
          {"source_depth_mm", rounded(body.source_depth_mm, 2)},
          {"legs_deg", rounded(body.legs_deg, 2)},
          {"arms_deg", rounded(body.arms_deg, 2)},

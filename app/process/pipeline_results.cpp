@@ -85,7 +85,7 @@ Result<ReportBody> Pipeline::retarget_one(SolvedMotion& motion,
   body.slide_after_cm_per_s = written->retargeted.report.after.mean_slide_cm_per_s;
   const AvatarVerdict& verdict = written->verdict;
   body.penetration_mm = verdict.penetration_mm(written->retargeted.report);
-  if (verdict.skin && verdict.skin->frame >= 0) {
+  if (verdict.skin && verdict.skin->frame) {
     if (verdict.skin->part) body.penetration_part = retarget::name(*verdict.skin->part);
     body.penetration_frame = verdict.skin->frame;
   }

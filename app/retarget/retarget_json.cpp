@@ -81,9 +81,8 @@ void add_verdict(const AvatarVerdict& verdict,
   out["skin"] = nullptr;
   if (verdict.skin) {
     const retarget::SkinDepth& skin = *verdict.skin;
-    const bool is_low = skin.frame >= 0;
     out["skin"] = {{"part", skin.part ? Json(retarget::name(*skin.part)) : Json(nullptr)},
-                   {"frame", is_low ? Json(skin.frame) : Json(nullptr)},
+                   {"frame", skin.frame ? Json(*skin.frame) : Json(nullptr)},
                    {"beyond_source_mm", rounded(1e3 * verdict.beyond_source.depth_m, 3)},
                    {"before_mm", rounded(1e3 * report.skin.before.depth_m, 3)},
                    {"body_raised_mm", rounded(1e3 * report.skin.max_root_m, 3)},
@@ -95,9 +94,9 @@ void add_verdict(const AvatarVerdict& verdict,
     return Json{{"segment", retarget::segment_name(figures)},
                 {"median_deg", rounded(glm::degrees(figures.median_rad), 2)},
                 {"worst_deg", rounded(glm::degrees(figures.worst_rad), 2)},
-                {"worst_frame", figures.worst_frame},
+                {"worst_frame", figures.worst_frame.value_or(-1)},
                 {"sustained_deg", rounded(glm::degrees(figures.sustained_rad), 2)},
-                {"sustained_frame", figures.sustained_frame}};
+                {"sustained_frame", figures.sustained_frame.value_or(-1)}};
   };
   out["posture"] = {{"legs", direction(posture.legs)},
                     {"arms", direction(posture.arms)},

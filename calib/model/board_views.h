@@ -30,7 +30,9 @@ struct BoardView {
   bool of_tags = true;               ///< If false, each corner is an independent point.
 };
 
-/// The instant of every view of the board lying on the floor, where it is static.
+/// The instant of every view of the board lying on the floor, where it is static. It
+/// names an instant, not an absent value, and precedes the frame numbers of the waved
+/// board.
 inline constexpr int kFloorInstant = -1;
 
 /// Returns the views of the board, ordered by camera and instant. A view of fewer than

@@ -85,7 +85,7 @@ class Judge {
     kept_.mean_error_m += shortfall.m;
     kept_.mean_error_rad += shortfall.rad;
     // One of the two is always 0.
-    if (kept_.worst_frame < 0 || shortfall.m > kept_.worst_error_m ||
+    if (!kept_.worst_frame || shortfall.m > kept_.worst_error_m ||
         shortfall.rad > kept_.worst_error_rad) {
       kept_.worst_error_m = shortfall.m;
       kept_.worst_error_rad = shortfall.rad;

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "core/character.h"
-#include "core/constraint.h"
 #include "core/base/ids.h"
-#include "core/motion.h"
 #include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/character.h"
+#include "core/constraint.h"
+#include "core/motion.h"
 #include "retarget/adapt/adapter.h"
 #include "retarget/adapt/plan_supports.h"
 
@@ -40,8 +40,8 @@ struct KeptConstraint {
   double worst_error_m = 0.0;
   double mean_error_rad = 0.0;
   double worst_error_rad = 0.0;
-  int worst_frame = -1;  ///< Index in the motion's poses; -1 if it was never fully
-                         ///< active.
+  /// Index in the motion's poses; nullopt: the constraint was never fully active.
+  std::optional<int> worst_frame;
   /// True if max_iterations ended the solve of a frame in which the constraint was not
   /// met.
   bool ran_out = false;

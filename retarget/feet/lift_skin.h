@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,7 +30,7 @@ struct LiftSkinOptions {
 struct SkinDepth {
   double depth_m = 0.0;          ///< Depth below the floor beyond the allowed; 0: none.
   std::optional<SkinPart> part;  ///< nullopt: none, or not known.
-  int frame = -1;                ///< -1: none.
+  std::optional<int> frame;      ///< nullopt: none.
 };
 
 struct LiftSkinReport {

@@ -146,7 +146,7 @@ struct Missing {
   // Displacements common to both wrists, where hands are on each other. [m]
   VectorChannel common;
   double deepest_m = 0.0;
-  int worst_frame = -1;
+  std::optional<int> worst_frame;
   double sum_m = 0.0;  // Sum over frames and arms, to judge the effect of a pass.
 
   explicit Missing(std::size_t count) : arms{Arm(count), Arm(count)}, common(count) {}
@@ -289,9 +289,9 @@ ArmCollisionReport resolve_arm_collisions(const VolumeInMotion& source,
     const auto i = static_cast<std::size_t>(side);
     for (std::size_t t = 0; t < count; ++t) {
       const ArmShift& from = before[i][t];
-      const ArmShift out = limited_shift({best[i][t].wrist_m - from.wrist_m,
-                                          best[i][t].swivel_rad - from.swivel_rad},
-                                         arms.limb(side).length_m());
+      const ArmShift out = limited_shift(
+          {best[i][t].wrist_m - from.wrist_m, best[i][t].swivel_rad - from.swivel_rad},
+          arms.limb(side).length_m());
       shifts[i][t] = {from.wrist_m + out.wrist_m, from.swivel_rad + out.swivel_rad};
     }
   }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "core/base/time.h"
 #include "retarget/body/arm_shift.h"
 #include "retarget/hands/arm_clearance.h"
@@ -25,7 +27,7 @@ struct ArmCollisionReport {
   /// after, beyond the source's, slack included. [m]
   double deepest_before_m = 0.0;
   double deepest_after_m = 0.0;
-  int worst_frame = -1;  ///< Frame of the remaining maximum; -1: none remains.
+  std::optional<int> worst_frame;  ///< Frame of the remaining maximum; nullopt: none.
   int passes = 0;
 };
 

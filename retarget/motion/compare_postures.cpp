@@ -71,7 +71,7 @@ std::optional<bool> feet_backwards(const BodyMap& map, const Frames& frames) {
 struct Fastest {
   double speed_m_per_s = 0.0;
   B bone{};
-  int frame = -1;
+  std::optional<int> frame;
 };
 
 void keep_faster(const BodyMap& map,
@@ -94,7 +94,7 @@ struct Apart {
   std::vector<double> angles_rad;
   std::vector<int> frames;
   double worst_rad = 0.0;
-  int worst_frame = -1;
+  std::optional<int> worst_frame;
 
   void add(const glm::dvec3& a, const glm::dvec3& b, int frame) {
     angles_rad.push_back(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
@@ -129,8 +129,8 @@ struct Apart {
 };
 
 void keep_larger(const DirectionFigures& one, DirectionFigures& out) {
-  if (one.worst_frame < 0) return;
-  if (out.worst_frame < 0 || one.median_rad > out.median_rad) out = one;
+  if (!one.worst_frame) return;
+  if (!out.worst_frame || one.median_rad > out.median_rad) out = one;
 }
 
 /// Returns a foot's horizontal direction; nullopt: the foot is too steep.
@@ -242,7 +242,7 @@ PostureFigures compare_postures(const Motion& source,
   out.segments[next++] = neck.figures(B::kNeck, hz);
   for (std::size_t side = 0; side < 2; ++side) {
     const DirectionFigures foot = out.segments[next++] = feet.figures(side, hz);
-    if (out.feet.worst_frame < 0 || foot.sustained_rad > out.feet.sustained_rad) {
+    if (!out.feet.worst_frame || foot.sustained_rad > out.feet.sustained_rad) {
       out.feet = foot;
     }
   }
