@@ -35,12 +35,12 @@ Status check_offset(const recordings::Session& session,
 
 }  // namespace
 
-std::optional<Error> missing_video(const recordings::Session& session,
-                                   const Trial& trial,
-                                   const TrialVideo& video) {
+Status check_video_exists(const recordings::Session& session,
+                          const Trial& trial,
+                          const TrialVideo& video) {
   std::error_code ignored;
   if (!trial.is_recorded || std::filesystem::exists(video.path, ignored)) {
-    return std::nullopt;
+    return Done{};
   }
   return bad_input(video.path.string(),
                    "trial " + trial.name + " has no recording of camera \"" +

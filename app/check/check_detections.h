@@ -4,7 +4,6 @@
 
 // Checks of a trial's detections before their use.
 
-#include <optional>
 #include <vector>
 
 #include "app/check/content_to_detect.h"
@@ -15,10 +14,10 @@
 
 namespace marey::app {
 
-/// Returns an error if the take lacks the video of a camera.
-[[nodiscard]] std::optional<Error> missing_video(const recordings::Session& session,
-                                                 const recordings::Trial& trial,
-                                                 const recordings::TrialVideo& video);
+/// Checks that the video of a recorded trial exists. Error (kBadInput): it does not.
+[[nodiscard]] Status check_video_exists(const recordings::Session& session,
+                                        const recordings::Trial& trial,
+                                        const recordings::TrialVideo& video);
 
 /// Checks that enough videos could be read: two of a motion, all of other trials.
 /// Appends a poor finding for each video that could not be read to the end, and a fair

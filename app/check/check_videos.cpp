@@ -174,7 +174,7 @@ Status check_videos(const Session& session, std::vector<Finding>& findings) {
   return Done{};
 }
 
-void warn_of_short_videos(const Session& session,
+void assess_video_lengths(const Session& session,
                           const Trial& trial,
                           const std::vector<CameraDetections>& found,
                           std::vector<Finding>& findings) {

@@ -26,11 +26,11 @@ namespace marey::app {
 [[nodiscard]] Status check_videos(const recordings::Session& session,
                                   std::vector<Finding>& findings);
 
-/// Warns of videos that end before others of their trial, by more than 0.5 s and 5 % of
-/// the longest. `found` has one entry per camera of the session, with all frames. Videos
-/// that could not be read to the end are reported by find_tags(). Calibration trials are
-/// not checked: their videos may begin and end at any time.
-void warn_of_short_videos(const recordings::Session& session,
+/// Appends a fair finding for each video that ends before others of its trial, by more
+/// than 0.5 s and 5 % of the longest. `found` has one entry per camera of the session,
+/// with all frames. Videos that could not be read to the end are reported by find_tags().
+/// Calibration trials are not checked: their videos may begin and end at any time.
+void assess_video_lengths(const recordings::Session& session,
                           const recordings::Trial& trial,
                           const std::vector<CameraDetections>& found,
                           std::vector<Finding>& findings);

@@ -12,7 +12,7 @@
 
 #include "app/shell/version.h"
 #include "capture/tags/detect_tags.h"
-#include "capture/v4l2/check_camera.h"
+#include "capture/v4l2/probe_camera.h"
 #include "capture/v4l2/v4l2_device.h"
 
 namespace marey::app {
@@ -53,7 +53,7 @@ struct Check {
 
 struct ExaminedCamera {
   capture::DeviceInfo device;
-  capture::CameraCheck check;
+  capture::CameraProbe check;
 };
 
 std::vector<Check> examine_machine() {
@@ -89,7 +89,7 @@ std::vector<ExaminedCamera> examine_cameras(
     if (device.modes.empty()) continue;
     capture::DeviceRequest request;
     request.path = device.path;
-    cameras.push_back({device, capture::check_camera(request)});
+    cameras.push_back({device, capture::probe_camera(request)});
   }
   return cameras;
 }

@@ -9,7 +9,7 @@
 
 #include "core/base/parallel.h"
 #include "reconstruct/labels/name_markers.h"
-#include "reconstruct/tracks/check_tracks.h"
+#include "reconstruct/tracks/find_marker_faults.h"
 #include "reconstruct/tracks/repair_gaps.h"
 
 namespace marey::app {
@@ -151,7 +151,7 @@ std::vector<MarkerTracks> repair_trials(std::vector<MarkerTrial>& trials,
   JointProgress all(progress, static_cast<int>(trials.size()));
   in_parallel(trials.size(), 0, [&](std::size_t i) {
     Repair& repair = trials[i].repair;
-    repair.checked = reconstruct::check_tracks(repair.as_read);
+    repair.checked = reconstruct::find_marker_faults(repair.as_read);
     reconstruct::RepairOptions options;
     options.threads = alone ? 0 : 1;
     repair.repaired = reconstruct::repair_gaps(

@@ -89,7 +89,7 @@ Exit run_repair(const RepairArguments& args, Console& console) {
   Repair repair;
   repair.name = args.in.filename().string();
   repair.as_read = read->tracks;
-  repair.checked = reconstruct::check_tracks(read->tracks);
+  repair.checked = reconstruct::find_marker_faults(read->tracks);
   reconstruct::RepairOptions options;
   options.max_sigma_m = args.max_sigma_m;
   options.threads = 0;

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "reconstruct/tracks/check_tracks.h"
+#include "reconstruct/tracks/find_marker_faults.h"
 #include "reconstruct/tracks/repair_gaps.h"
 
 namespace marey::app {

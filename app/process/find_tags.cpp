@@ -65,9 +65,9 @@ Result<std::vector<CameraDetections>> read_or_detect(const recordings::Session& 
   std::vector<capture::CameraInput> inputs;
   std::map<CameraId, DetectionCache> caches;
   for (const TrialVideo& video : trial.videos) {
-    if (const auto missing = missing_video(session, trial, video)) {
-      if (trial.kind != recordings::TrialKind::kMotion) return *missing;
-      findings.push_back(tolerated(Severity::kPoor, "missing", *missing));
+    if (const Status exists = check_video_exists(session, trial, video); !exists) {
+      if (trial.kind != recordings::TrialKind::kMotion) return exists.error();
+      findings.push_back(tolerated(Severity::kPoor, "missing", exists.error()));
       continue;
     }
     const auto cache = DetectionCache::open(session, trial, video, wanted, out);
@@ -114,7 +114,7 @@ Result<std::vector<CameraDetections>> find_tags(const recordings::Session& sessi
   }
   const Status seen = check_content(session, trial, found, wanted, findings);
   if (!seen) return seen.error();
-  warn_of_short_videos(session, trial, found, findings);
+  assess_video_lengths(session, trial, found, findings);
   if (const Status ok = match_times(trial, found, findings); !ok) return ok.error();
   if (const Status ok = check_rates(session, trial, found); !ok) return ok.error();
   return read;

@@ -8,13 +8,13 @@
 
 #include "app/check/assess_body.h"
 #include "app/check/assess_clocks.h"
+#include "app/check/assess_moved_camera.h"
 #include "app/check/check_detections.h"
 #include "app/check/check_ids.h"
 #include "app/check/check_session.h"
 #include "app/check/check_trial_kinds.h"
 #include "app/check/check_videos.h"
 #include "app/check/common_sigma.h"
-#include "app/check/find_moved_cameras.h"
 #include "app/check/find_turned_video.h"
 #include "app/motion/retarget_files.h"
 #include "app/motion/write_motion.h"
@@ -249,7 +249,7 @@ Status Pipeline::check_trials() {
       add_of_trial(trial.name, std::move(*wrong));
     }
     if (auto moved =
-            find_moved_cameras(trial.name, cameras_, *detections, session_.tags)) {
+            assess_moved_camera(trial.name, cameras_, *detections, session_.tags)) {
       add_of_trial(trial.name, std::move(*moved));
     }
   }

@@ -11,7 +11,7 @@
 #include "benchmarks/markers/marker_subject.h"
 #include <glm/geometric.hpp>
 
-#include "reconstruct/tracks/check_tracks.h"
+#include "reconstruct/tracks/find_marker_faults.h"
 #include "reconstruct/tracks/repair_gaps.h"
 #include "tests/support/bodies/random_bodies.h"
 
@@ -88,7 +88,7 @@ MarkerTracks harmed(const MarkerTracks& clean, const Harm& harm, std::uint64_t s
 
 /// Checks and repairs the tracks, as a user does before the fit.
 MarkerTracks mended(const MarkerTracks& raw) {
-  return reconstruct::repair_gaps(reconstruct::check_tracks(raw).tracks).tracks;
+  return reconstruct::repair_gaps(reconstruct::find_marker_faults(raw).tracks).tracks;
 }
 
 void compare(const Motion& mine, const Motion& clean, const std::string& name) {

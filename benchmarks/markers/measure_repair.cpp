@@ -13,7 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/quantile.h"
-#include "reconstruct/tracks/check_tracks.h"
+#include "reconstruct/tracks/find_marker_faults.h"
 #include "reconstruct/tracks/repair_gaps.h"
 #include "recordings/markers/marker_file.h"
 
@@ -120,7 +120,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s: %s\n", argv[1], file.error().cause.c_str());
     return 3;
   }
-  const auto checked = reconstruct::check_tracks(file->tracks);
+  const auto checked = reconstruct::find_marker_faults(file->tracks);
   const auto repaired = reconstruct::repair_gaps(checked.tracks);
   const auto empty = std::count_if(repaired.tracks.samples.begin(),
                                    repaired.tracks.samples.end(),

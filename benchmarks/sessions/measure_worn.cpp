@@ -6,11 +6,11 @@
 //   measure_worn --tags FIRST LAST
 //
 // simulates the sessions of these seeds (tests/support/simulation/simulated_session.h)
-// and runs check_worn() on each, as it is and with exchanges of segments. "reported": an
-// error. "named": it names the exchanged segments or limbs. With --tags one tag of a
-// segment with several is declared on another segment instead, and fit_subject() is run.
-// Then "named" is an error or a finding that names the tag or one of the two segments, or
-// a fit that leaves the tag out.
+// and runs find_suspect_tags() on each, as it is and with exchanges of segments.
+// "reported": an error. "named": it names the exchanged segments or limbs. With --tags
+// one tag of a segment with several is declared on another segment instead, and
+// fit_subject() is run. Then "named" is an error or a finding that names the tag or one
+// of the two segments, or a fit that leaves the tag out.
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@
 
 #include "core/human/average_proportions.h"
 #include "reconstruct/clusters/sightings.h"
-#include "reconstruct/segments/check_worn.h"
+#include "reconstruct/segments/find_suspect_tags.h"
 #include "reconstruct/subject/fit_subject.h"
 #include "tests/support/simulation/simulated_session.h"
 
@@ -78,7 +78,7 @@ std::vector<Exchange> exchanges() {
   return out;
 }
 
-/// Runs check_worn() on a session. A WornDoubt counts as an error here, although
+/// Runs find_suspect_tags() on a session. SuspectTags count as an error here, although
 /// fit_subject() may refute it.
 marey::Status check(const marey::testing::SimulatedSession& session,
                     const std::vector<TagOnSegment>& tags) {
@@ -100,8 +100,8 @@ marey::Status check(const marey::testing::SimulatedSession& session,
     }
   }
   const auto worn =
-      check_worn({cameras, tags, trials, clusters, located[0], located[1]},
-                 marey::average_proportions(session.body.declared_stature_m));
+      find_suspect_tags({cameras, tags, trials, clusters, located[0], located[1]},
+                        marey::average_proportions(session.body.declared_stature_m));
   if (!worn) return worn.error();
   if (*worn) return (*worn)->error;
   return marey::Done{};

@@ -93,7 +93,7 @@ HttpAnswer send(const WebContent& content,
 
 }  // namespace
 
-HttpAnswer answer_request(const CheckedRequest& request,
+HttpAnswer answer_request(const AuthorizedRequest& request,
                           const RequestHead& head,
                           std::string_view if_none_match,
                           std::string_view token,

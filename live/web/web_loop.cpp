@@ -16,9 +16,9 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <unistd.h>
 
+#include "live/web/authorize_request.h"
 #include "live/web/http_answer.h"
 #include "live/web/page_session.h"
-#include "live/web/request_check.h"
 #include "live/web/web_state.h"
 
 namespace marey::live {
@@ -94,7 +94,7 @@ class FetchSession : public std::enable_shared_from_this<FetchSession> {
     if (request.count(http::field::origin) > 1) {
       return send(reject_request(RejectReason::kMalformed, server_.state), false);
     }
-    const CheckedRequest checked = check_request(head, policy_);
+    const AuthorizedRequest checked = authorize_request(head, policy_);
     if (checked.verdict == Verdict::kAccepted) {
       if (!parser_->is_done()) {  // The request has a body.
         return send(reject_request(RejectReason::kMalformed, server_.state), false);

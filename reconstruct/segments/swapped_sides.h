@@ -7,7 +7,7 @@
 #include <span>
 
 #include "core/base/result.h"
-#include "reconstruct/segments/worn_segments.h"
+#include "reconstruct/segments/exchanged_segments.h"
 
 namespace marey::reconstruct {
 

@@ -12,7 +12,7 @@
 
 #include "core/base/quantile.h"
 #include "reconstruct/clusters/tag_clusters.h"
-#include "reconstruct/segments/worn_segments.h"
+#include "reconstruct/segments/exchanged_segments.h"
 
 namespace marey::reconstruct {
 namespace {

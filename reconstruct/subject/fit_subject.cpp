@@ -18,7 +18,7 @@
 #include "reconstruct/clusters/sightings.h"
 #include "reconstruct/clusters/tag_clusters.h"
 #include "reconstruct/posture/initial_posture.h"
-#include "reconstruct/segments/check_worn.h"
+#include "reconstruct/segments/find_suspect_tags.h"
 #include "reconstruct/segments/segment_frames.h"
 #include "reconstruct/subject/assess_subject.h"
 #include "reconstruct/subject/refine_subject.h"
@@ -292,7 +292,7 @@ Result<SubjectFit> fit_subject(const SubjectPrior& prior,
   const LocatedTrial moved = locate_trial(trials[1], clusters, cameras, prior.tags);
   tell(1, kSteps);
   const WornTags worn{cameras, prior.tags, trials, clusters, stood.poses, moved.poses};
-  const auto warning = check_worn(worn, average);
+  const auto warning = find_suspect_tags(worn, average);
   if (!warning) return warning.error();
   SubjectEvidence evidence;
   auto fit =

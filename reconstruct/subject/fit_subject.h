@@ -22,9 +22,9 @@ namespace marey::reconstruct {
 /// need (neck, collar bones, spine), is placed on the body found from the other tags,
 /// then refined with it. Errors (kBadInput; `where` is empty or [[tags.tag]]): segments
 /// without a usable tag; tags declared on segments that they do not move with
-/// (check_worn.h); too few frames that show the hips, standing or moving; limbs whose
-/// lengths are absurd for the declared stature (a wrong tag or board size). Cost: some
-/// seconds; memory independent of the trials' lengths, apart from the detections.
+/// (find_suspect_tags.h); too few frames that show the hips, standing or moving; limbs
+/// whose lengths are absurd for the declared stature (a wrong tag or board size). Cost:
+/// some seconds; memory independent of the trials' lengths, apart from the detections.
 [[nodiscard]] Result<SubjectFit> fit_subject(const SubjectPrior& prior,
                                              std::span<const Camera> cameras,
                                              std::span<const CameraDetections> standing,

@@ -51,7 +51,7 @@ struct RepairedTracks {
 /// many, are averaged. Markers at stable distances (bones) are then moved to these
 /// distances as far as their sigmas allow. Long gaps are filled piece by piece, from the
 /// markers that are seen in each, and the pieces are blended.
-/// Existing samples are taken as right: find wrong ones first (check_tracks.h).
+/// Existing samples are taken as right: find wrong ones first (find_marker_faults.h).
 /// Deterministic for any number of threads. Cost: some 5 ms per gap and pass, plus the
 /// distances between all markers at up to 1000 frames. Precondition: rate above 0.
 [[nodiscard]] RepairedTracks repair_gaps(const MarkerTracks& tracks,

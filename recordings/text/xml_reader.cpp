@@ -157,7 +157,7 @@ std::vector<std::string> XmlReader::notes() const {
   return all;
 }
 
-bool XmlReader::check_bytes() {
+bool XmlReader::require_text() {
   const auto odd = std::find_if(text_.begin(), text_.end(), [](char c) {
     return is_control(c) && c != '\t' && c != '\r' && c != '\n';
   });
@@ -170,7 +170,7 @@ bool XmlReader::check_bytes() {
 }
 
 pugi::xml_node XmlReader::root(const char* name) {
-  if (!check_bytes()) return {};
+  if (!require_text()) return {};
   const pugi::xml_parse_result parsed = xml_.load_buffer(
       text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
   if (!parsed) {

@@ -64,7 +64,7 @@ class XmlReader {
   [[nodiscard]] std::vector<std::string> notes() const;
 
  private:
-  [[nodiscard]] bool check_bytes();
+  [[nodiscard]] bool require_text();
   [[nodiscard]] int line_at(std::size_t offset) const;
   void fail_at(std::size_t offset, std::string cause, std::string next);
 

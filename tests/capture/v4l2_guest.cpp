@@ -15,7 +15,7 @@
 
 #include <unistd.h>
 
-#include "capture/v4l2/check_camera.h"
+#include "capture/v4l2/probe_camera.h"
 #include "capture/v4l2/reopening_device.h"
 #include "capture/v4l2/v4l2_device.h"
 #include "tests/capture/v4l2/guest_take.h"
@@ -356,7 +356,7 @@ void check_measuring() {
   DeviceRequest request = small(kFirst);
   request.width_px = 640;
   request.height_px = 360;
-  const capture::CameraCheck found = capture::check_camera(request);
+  const capture::CameraProbe found = capture::probe_camera(request);
   check(!found.trouble && found.measured && std::abs(found.measured->hz - 30.0) < 0.5,
         "a camera's rate is measured",
         capture::summary(found));

@@ -10,7 +10,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/check/find_moved_cameras.h"
+#include "app/check/assess_moved_camera.h"
 #include "calib/quality/assess_calibration.h"
 #include "calib/quality/calibration_report.h"
 #include "calib/quality/report_calibration.h"
@@ -177,7 +177,7 @@ void assess_motions(const SimulatedCalibration& scene,
                                  moved->gain,
                                  moved->from_frame.value_or(-1));
     }
-    const auto moved = app::find_moved_cameras(name, rig.cameras, detections, tags);
+    const auto moved = app::assess_moved_camera(name, rig.cameras, detections, tags);
     if (!moved) continue;
     if (moved->severity == Severity::kPoor && out.exit_code == 0) out.exit_code = 4;
     out.words.push_back(

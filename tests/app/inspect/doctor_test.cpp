@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `marey doctor` on the machine of the tests. Its report on cameras has tests with
-// cameras: tests/capture/v4l2/check_camera_test.cpp, v4l2_guest.cpp.
+// cameras: tests/capture/v4l2/probe_camera_test.cpp, v4l2_guest.cpp.
 #include <string>
 
 #include <gtest/gtest.h>

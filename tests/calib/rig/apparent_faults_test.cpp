@@ -172,7 +172,7 @@ TEST(FindMovedCamera, MistakesNoClockOffsetForAMove) {
   const auto seen = flying_tags(cameras, 90, 0.1, 0.004, 5.0);
   const auto found = find_moved_camera(cameras, seen, sizes());
   ASSERT_TRUE(found);
-  // Warning limit of app/check/find_moved_cameras.cpp.
+  // Warning limit of app/check/assess_moved_camera.cpp.
   EXPECT_LT(found->moved_px, 0.5);
 }
 

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/segments/check_worn.h"
+#include "reconstruct/segments/find_suspect_tags.h"
 
 #include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "core/base/assert.h"
+#include "reconstruct/segments/exchanged_segments.h"
 #include "reconstruct/segments/swapped_sides.h"
 #include "reconstruct/segments/tag_groups.h"
-#include "reconstruct/segments/worn_segments.h"
 
 namespace marey::reconstruct {
 namespace {
@@ -113,8 +113,8 @@ std::optional<Error> mistake_as_declared(const WornTags& worn,
 
 }  // namespace
 
-Result<std::optional<SuspectTags>> check_worn(const WornTags& worn,
-                                              const Proportions& average) {
+Result<std::optional<SuspectTags>> find_suspect_tags(const WornTags& worn,
+                                                     const Proportions& average) {
   MAREY_ASSERT(worn.trials.size() == 2);
   const auto singles = locate_single_tags(worn.cameras, worn.tags, worn.trials[1]);
   const std::vector<HumanBone> by_rigidity = segments_by_rigidity(worn.tags, singles);

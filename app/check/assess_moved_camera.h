@@ -18,7 +18,7 @@ namespace marey::app {
 /// alone. The finding has the amount and the first frame. `detections` has one entry per
 /// camera, corrected for shrinkage. nullopt if no camera was moved, or if the tags are
 /// too few for the test.
-[[nodiscard]] std::optional<Finding> find_moved_cameras(
+[[nodiscard]] std::optional<Finding> assess_moved_camera(
     const std::string& trial,
     std::span<const Camera> cameras,
     std::span<const CameraDetections> detections,

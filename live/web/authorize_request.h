@@ -33,21 +33,21 @@ enum class Verdict {
   kWrongToken,
 };
 
-/// Result of check_request().
-struct CheckedRequest {
+/// Result of authorize_request().
+struct AuthorizedRequest {
   Verdict verdict = Verdict::kWrongTarget;
   std::string_view path{};      ///< Without the query; a view into the head's target.
   bool token_in_query = false;  ///< The query has the right token: set the cookie.
 };
-/// Checks one request, and finds its path.
+/// Determines whether a request has access, and finds its path.
 ///
 /// Host must be the local address and port of the connection, or "localhost" if that
 /// address is the loopback. Other names are refused, because the owner of a name can
 /// point it at this machine. Origin, which browsers send with every request of a foreign
 /// page and with WebSockets, must be "http://" followed by Host. The token is the query's
 /// "token" or the cookie "marey_token". Never allocates.
-[[nodiscard]] CheckedRequest check_request(const RequestHead& head,
-                                           const AccessPolicy& policy);
+[[nodiscard]] AuthorizedRequest authorize_request(const RequestHead& head,
+                                                  const AccessPolicy& policy);
 
 /// Returns the value of a cookie in a Cookie header, or of a parameter in a query; empty
 /// if there is none. Nothing is decoded.

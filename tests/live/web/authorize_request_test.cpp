@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "live/web/request_check.h"
+#include "live/web/authorize_request.h"
 
 #include <set>
 #include <string>
@@ -14,14 +14,14 @@ namespace marey::live {
 namespace {
 
 Verdict verdict(const RequestHead& head, const AccessPolicy& policy) {
-  return check_request(head, policy).verdict;
+  return authorize_request(head, policy).verdict;
 }
 
 const AccessPolicy kHere{
     .address = "127.0.0.1", .loopback = true, .port = 8790, .token = ""};
 
-TEST(RequestCheck, ReturnsThePathOfAnAllowedRequest) {
-  const CheckedRequest got = check_request(
+TEST(AuthorizeRequest, ReturnsThePathOfAnAllowedRequest) {
+  const AuthorizedRequest got = authorize_request(
       {.method = "GET", .target = "/page.js?v=2?3", .host = "127.0.0.1:8790"}, kHere);
   EXPECT_EQ(got.verdict, Verdict::kAccepted);
   EXPECT_EQ(got.path, "/page.js");
@@ -32,7 +32,7 @@ TEST(RequestCheck, ReturnsThePathOfAnAllowedRequest) {
             Verdict::kWrongMethod);
 }
 
-TEST(RequestCheck, KnowsItsOwnAddresses) {
+TEST(AuthorizeRequest, KnowsItsOwnAddresses) {
   struct Case {
     const char* address;
     bool loopback;
@@ -70,7 +70,7 @@ TEST(RequestCheck, KnowsItsOwnAddresses) {
   }
 }
 
-TEST(RequestCheck, WantsTheOriginOfItsOwnPage) {
+TEST(AuthorizeRequest, WantsTheOriginOfItsOwnPage) {
   const auto from = [](const char* origin) {
     return verdict(
         {.method = "GET", .target = "/", .host = "localhost:8790", .origin = origin},
@@ -87,11 +87,11 @@ TEST(RequestCheck, WantsTheOriginOfItsOwnPage) {
   }
 }
 
-TEST(RequestCheck, WantsTheTokenInQueryOrCookie) {
+TEST(AuthorizeRequest, WantsTheTokenInQueryOrCookie) {
   AccessPolicy policy = kHere;
   policy.token = "0123456789abcdef";
   const auto with = [&](const char* target, const char* cookie) {
-    return check_request(
+    return authorize_request(
         {.method = "GET", .target = target, .host = "localhost:8790", .cookie = cookie},
         policy);
   };
@@ -117,7 +117,7 @@ TEST(RequestCheck, WantsTheTokenInQueryOrCookie) {
   }
 }
 
-TEST(RequestCheck, MatchesWholeEtagsAndAWildcard) {
+TEST(AuthorizeRequest, MatchesWholeEtagsAndAWildcard) {
   EXPECT_TRUE(has_etag("\"a\"", "\"a\""));
   EXPECT_TRUE(has_etag("\"b\" ,W/\"a\"", "\"a\""));
   EXPECT_TRUE(has_etag("*", "\"a\""));

@@ -47,6 +47,6 @@ struct CheckedTracks {
 /// three companions are checked for jumps and freezing alone.
 /// Deterministic. Cost: linear in frames, quadratic in markers for the distances, linear
 /// for the rest. Precondition: rate above 0.
-[[nodiscard]] CheckedTracks check_tracks(const MarkerTracks& tracks);
+[[nodiscard]] CheckedTracks find_marker_faults(const MarkerTracks& tracks);
 
 }  // namespace marey::reconstruct

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "core/body.h"
 #include "core/base/result.h"
+#include "core/body.h"
 #include "reconstruct/segments/segment_frames.h"
 
 namespace marey::reconstruct {

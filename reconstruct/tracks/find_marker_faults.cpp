@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/tracks/check_tracks.h"
+#include "reconstruct/tracks/find_marker_faults.h"
 
 #include <algorithm>
 #include <cmath>
@@ -325,7 +325,7 @@ std::string_view name(TrackFault fault) {
   return "jump";
 }
 
-CheckedTracks check_tracks(const MarkerTracks& tracks) {
+CheckedTracks find_marker_faults(const MarkerTracks& tracks) {
   MAREY_ASSERT(tracks.rate.hz > 0.0);
   return TrackChecker(tracks).check();
 }

@@ -2,20 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to reconstruct: a check that tags are worn on the segments that list them.
+// Private to reconstruct: finds tags that are not worn on the segments that list them.
 
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "core/base/result.h"
 #include "core/body.h"
 #include "core/camera.h"
-#include "core/base/result.h"
 #include "reconstruct/segments/segment_frames.h"
 
 namespace marey::reconstruct {
 
-/// The inputs of check_worn(): intermediate results of a subject's fit.
+/// The inputs of find_suspect_tags(): intermediate results of a subject's fit.
 struct WornTags {
   std::span<const Camera> cameras;
   std::span<const TagOnSegment> tags;
@@ -39,7 +39,7 @@ struct SuspectTags {
 /// other, left and right exchanged on the arms, the legs or both; each with the
 /// correction. Only exchanges that improve the body's movement by far are reported: a
 /// body that hardly moved passes. Cost: some seconds. Precondition: two trials.
-[[nodiscard]] Result<std::optional<SuspectTags>> check_worn(const WornTags& worn,
-                                                            const Proportions& average);
+[[nodiscard]] Result<std::optional<SuspectTags>> find_suspect_tags(
+    const WornTags& worn, const Proportions& average);
 
 }  // namespace marey::reconstruct

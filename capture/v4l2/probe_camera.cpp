@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "capture/v4l2/check_camera.h"
+#include "capture/v4l2/probe_camera.h"
 
 #include <algorithm>
 #include <array>
@@ -28,9 +28,9 @@ constexpr double kUsb2BytesPerSecond = 40e6;
 
 /// Receives frames, counts them in `check`, and computes the measured rate.
 void measure(V4l2Device& device,
-             const CheckCameraOptions& options,
+             const ProbeCameraOptions& options,
              V4l2Kernel& kernel,
-             CameraCheck& check) {
+             CameraProbe& check) {
   std::optional<Timestamp> first;
   Timestamp last{0};
   Timestamp end = kernel.now() + options.patience;
@@ -86,7 +86,7 @@ void advise_on_exposure(const DeviceSettings& settings,
 }
 
 void advise_on_frames(const DeviceRequest& request,
-                      const CameraCheck& check,
+                      const CameraProbe& check,
                       std::vector<std::string>& advice) {
   const DeviceSettings& settings = *check.settings;
   if (check.measured && check.measured->hz < 0.9 * request.rate.hz) {
@@ -122,7 +122,7 @@ void advise_on_frames(const DeviceRequest& request,
 
 }  // namespace
 
-std::string summary(const CameraCheck& check) {
+std::string summary(const CameraProbe& check) {
   if (!check.settings) return check.trouble ? check.trouble->cause : "";
   const DeviceSettings& settings = *check.settings;
   std::string all = std::string(name(settings.format)) + " " +
@@ -166,10 +166,10 @@ double blur_px(double exposure_s, int width_px) {
   return kMetresPerSecond * exposure_s * focal_px / kMetresAway;
 }
 
-CameraCheck check_camera(const DeviceRequest& request,
-                         const CheckCameraOptions& options,
+CameraProbe probe_camera(const DeviceRequest& request,
+                         const ProbeCameraOptions& options,
                          V4l2Kernel& kernel) {
-  CameraCheck check;
+  CameraProbe check;
   auto device = V4l2Device::open(request, kernel);
   if (!device) {
     check.trouble = device.error();

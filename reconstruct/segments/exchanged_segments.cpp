@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/segments/worn_segments.h"
+#include "reconstruct/segments/exchanged_segments.h"
 
 #include <algorithm>
 #include <array>

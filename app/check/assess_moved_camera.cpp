@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/check/find_moved_cameras.h"
+#include "app/check/assess_moved_camera.h"
 
 #include <map>
 #include <utility>
@@ -23,10 +23,10 @@ constexpr double kSureGain = 400.0;
 
 }  // namespace
 
-std::optional<Finding> find_moved_cameras(const std::string& trial,
-                                          std::span<const Camera> cameras,
-                                          std::span<const CameraDetections> detections,
-                                          std::span<const TagOnSegment> tags) {
+std::optional<Finding> assess_moved_camera(const std::string& trial,
+                                           std::span<const Camera> cameras,
+                                           std::span<const CameraDetections> detections,
+                                           std::span<const TagOnSegment> tags) {
   std::map<TagId, double> sizes_m;
   for (const TagOnSegment& tag : tags) sizes_m[tag.id] = tag.size_m;
   const auto move = calib::find_moved_camera(cameras, detections, sizes_m);

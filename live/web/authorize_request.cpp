@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "live/web/request_check.h"
+#include "live/web/authorize_request.h"
 
 #include <array>
 #include <charconv>
@@ -91,8 +91,8 @@ bool has_etag(std::string_view if_none_match, std::string_view etag) {
   return false;
 }
 
-CheckedRequest check_request(const RequestHead& head, const AccessPolicy& policy) {
-  CheckedRequest out;
+AuthorizedRequest authorize_request(const RequestHead& head, const AccessPolicy& policy) {
+  AuthorizedRequest out;
   std::string_view query = head.target;
   out.path = take_until('?', query);
   if (!is_our_host(head.host, policy)) {

@@ -19,7 +19,7 @@ namespace marey::capture {
 constexpr double kSharpExposureSeconds = 0.004;
 
 /// Measured behaviour of a camera.
-struct CameraCheck {
+struct CameraProbe {
   std::optional<Error> trouble;  ///< It cannot be opened, or delivers no frames.
   /// The only trouble is that another program uses it.
   bool in_use = false;
@@ -31,20 +31,20 @@ struct CameraCheck {
   std::vector<std::string> advice;  ///< One sentence each; empty if there is no problem.
 };
 
-struct CheckCameraOptions {
+struct ProbeCameraOptions {
   std::chrono::milliseconds patience{3000};  ///< Waiting time for the first frame.
   /// Duration of the measurement, from the first frame.
   std::chrono::milliseconds duration{1000};
 };
 
 /// Opens the camera with `request`, measures for a while, and closes it.
-[[nodiscard]] CameraCheck check_camera(const DeviceRequest& request,
-                                       const CheckCameraOptions& options = {},
+[[nodiscard]] CameraProbe probe_camera(const DeviceRequest& request,
+                                       const ProbeCameraOptions& options = {},
                                        V4l2Kernel& kernel = system_kernel());
 
 /// Returns "MJPG 1280x720 at 29.9 of 30 frames/s, exposure 4 ms": the chosen settings and
 /// the measured rate. Returns only the cause for a camera in trouble.
-[[nodiscard]] std::string summary(const CameraCheck& check);
+[[nodiscard]] std::string summary(const CameraProbe& check);
 
 /// Returns "MJPG 1920x1080 (30), 1280x720 (60, 30)": one line for each format.
 [[nodiscard]] std::vector<std::string> offers(const DeviceInfo& device);
