@@ -99,7 +99,7 @@ Check trouble(const Error& error) {
 }
 
 std::vector<Check> checks_of(const std::vector<ExaminedCamera>& cameras,
-                             const std::vector<Error>& troubles) {
+                             const std::vector<Error>& errors) {
   std::vector<Check> checks;
   for (const ExaminedCamera& camera : cameras) {
     const auto& check = camera.check;
@@ -113,7 +113,7 @@ std::vector<Check> checks_of(const std::vector<ExaminedCamera>& cameras,
                         {}});
     }
   }
-  for (const Error& error : troubles) checks.push_back(trouble(error));
+  for (const Error& error : errors) checks.push_back(trouble(error));
   if (checks.empty()) {
     checks.push_back({"cameras", true, "none is plugged in; videos need none", {}});
   }
@@ -224,7 +224,7 @@ Exit run_doctor(bool json, Console& console) {
   std::vector<Check> checks = examine_machine();
   const capture::DeviceList found = capture::list_devices();
   const std::vector<ExaminedCamera> cameras = examine_cameras(found.devices);
-  for (Check& check : checks_of(cameras, found.troubles)) {
+  for (Check& check : checks_of(cameras, found.errors)) {
     checks.push_back(std::move(check));
   }
   const bool all_good = std::ranges::all_of(checks, &Check::good);

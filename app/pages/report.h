@@ -96,7 +96,7 @@ struct ReportBody {
   double legs_deg = 0.0;         ///< From the subject: largest median of a segment.
   double arms_deg = 0.0;
   double trunk_deg = 0.0;
-  std::vector<std::string> problems;
+  std::vector<Finding> problems;   ///< With the trial in `where`.
   std::vector<std::string> files;  ///< Files of this body, relative to the report.
 };
 

@@ -219,7 +219,7 @@ Json avatar_json(const ReportTrial& trial) {
          {"legs_deg", rounded(body.legs_deg, 2)},
          {"arms_deg", rounded(body.arms_deg, 2)},
          {"trunk_deg", rounded(body.trunk_deg, 2)},
-         {"problems", body.problems},
+         {"problems", messages(body.problems, Severity::kNote)},
          {"files", body.files}});
   }
   return avatars;

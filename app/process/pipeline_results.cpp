@@ -95,7 +95,7 @@ Result<ReportBody> Pipeline::retarget_one(SolvedMotion& motion,
   body.trunk_deg = glm::degrees(verdict.posture.trunk.median_rad);
   for (Finding problem : verdict.problems) {
     problem.where = "trial " + folder.string() + ", " + problem.where;
-    body.problems.push_back(problem.message());
+    body.problems.push_back(problem);
     add_of_trial(motion.trial->name, std::move(problem));
   }
   for (const auto& file : written->files) {

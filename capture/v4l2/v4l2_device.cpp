@@ -81,19 +81,19 @@ Result<Identity> identify(V4l2Kernel& kernel, int fd, const std::string& path) {
 }
 
 /// Calls `with` for every camera while it is open, with its index at its port set. Adds
-/// failures to `troubles`.
+/// failures to `errors`.
 template <class With>
-void for_each_camera(V4l2Kernel& kernel, std::vector<Error>& troubles, With with) {
+void for_each_camera(V4l2Kernel& kernel, std::vector<Error>& errors, With with) {
   std::vector<std::string> buses;
   for (const std::string& path : kernel.video_paths()) {
     const OpenFile file(kernel, path);
     if (file.fd() < 0) {
-      troubles.push_back(device_error(path, V4l2Step::kOpen, -file.fd()));
+      errors.push_back(device_error(path, V4l2Step::kOpen, -file.fd()));
       continue;
     }
     auto identity = identify(kernel, file.fd(), path);
     if (!identity) {
-      troubles.push_back(identity.error());
+      errors.push_back(identity.error());
       continue;
     }
     if (!identity->is_camera) continue;
@@ -108,7 +108,7 @@ void for_each_camera(V4l2Kernel& kernel, std::vector<Error>& troubles, With with
 
 DeviceList list_devices(V4l2Kernel& kernel) {
   DeviceList list;
-  for_each_camera(kernel, list.troubles, [&](DeviceInfo info, int fd) {
+  for_each_camera(kernel, list.errors, [&](DeviceInfo info, int fd) {
     info.modes = list_modes(kernel, fd);
     list.devices.push_back(std::move(info));
   });
@@ -117,8 +117,8 @@ DeviceList list_devices(V4l2Kernel& kernel) {
 
 std::optional<std::string> find_again(const DeviceInfo& lost, V4l2Kernel& kernel) {
   std::optional<std::string> found;
-  std::vector<Error> troubles;
-  for_each_camera(kernel, troubles, [&](const DeviceInfo& info, int) {
+  std::vector<Error> errors;
+  for_each_camera(kernel, errors, [&](const DeviceInfo& info, int) {
     if (info.bus == lost.bus && info.card == lost.card && info.driver == lost.driver &&
         info.place_at_bus == lost.place_at_bus) {
       found = info.path;
@@ -160,8 +160,8 @@ std::string real_path(const std::string& path) {
 /// Returns the number of capture devices at the same port before it.
 int place_of(V4l2Kernel& kernel, const DeviceInfo& device) {
   int place = 0;
-  std::vector<Error> troubles;
-  for_each_camera(kernel, troubles, [&](const DeviceInfo& info, int) {
+  std::vector<Error> errors;
+  for_each_camera(kernel, errors, [&](const DeviceInfo& info, int) {
     if (info.path == device.path) place = info.place_at_bus;
   });
   return place;

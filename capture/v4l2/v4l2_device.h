@@ -19,7 +19,7 @@ namespace marey::capture {
 struct DeviceList {
   std::vector<DeviceInfo> devices;  ///< Video capture devices, by path.
   /// Devices that could not be queried, such as those without permission.
-  std::vector<Error> troubles;
+  std::vector<Error> errors;
 };
 
 /// Returns all video capture devices. Never fails: a machine without cameras has none.

@@ -91,7 +91,7 @@ TEST(V4l2List, ContainsOnlyCaptureDevices) {
   EXPECT_EQ(list.devices[0].place_at_bus, 0);
   EXPECT_EQ(list.devices[1].path, "/dev/video2");
   EXPECT_EQ(list.devices[1].place_at_bus, 1);
-  EXPECT_TRUE(list.troubles.empty());
+  EXPECT_TRUE(list.errors.empty());
   EXPECT_EQ(kernel.open_files, 0);
 }
 
@@ -100,8 +100,8 @@ TEST(V4l2List, ReportsADeviceWithoutPermission) {
   kernel.refuse_to_open(EACCES);
   const DeviceList list = list_devices(kernel);
   EXPECT_TRUE(list.devices.empty());
-  ASSERT_EQ(list.troubles.size(), 1U);
-  EXPECT_NE(list.troubles[0].next.find("group"), std::string::npos);
+  ASSERT_EQ(list.errors.size(), 1U);
+  EXPECT_NE(list.errors[0].next.find("group"), std::string::npos);
 }
 
 TEST(V4l2List, HasFormatsInTheOrderOfPreferenceAndRatesFastestFirst) {
