@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string>
 
-#include "app/check/check_sights.h"
+#include "app/check/check_target_seen.h"
 #include "core/base/assert.h"
 
 namespace marey::app {
@@ -84,7 +84,7 @@ Status check_content(const recordings::Session& session,
     const CameraDetections& camera = found[index(video.camera)];
     if (camera.frames.empty()) continue;
     if (!is_floor) {
-      const Status ok = check_seen(session, trial, camera, wanted);
+      const Status ok = check_target_seen(session, trial, camera, wanted);
       if (!ok) return ok;
     }
     if (const Status ok = check_offset(session, video, camera.rate); !ok) return ok;

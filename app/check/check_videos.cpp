@@ -52,7 +52,7 @@ void open(Opened& one) {
     return;
   }
   one.info = (*source)->info();
-  if (has_take(*one.trial) || !is_folder(*one.video)) return;
+  if (has_times_file(*one.trial) || !is_folder(*one.video)) return;
   const auto images = capture::list_images(one.video->path, one.video->path.string());
   if (images) one.gap = capture::find_number_gap(*images);
 }
@@ -90,7 +90,7 @@ Status check_opened(const std::vector<Opened>& all, std::vector<Finding>& findin
 /// number to within 2 frames or 2 %, so only frames beyond that are errors.
 Status check_range(const Session& session, const Opened& one) {
   const Trial& trial = *one.trial;
-  if (!trial.frames || has_take(trial) || !one.info || !one.info->expected_frames) {
+  if (!trial.frames || has_times_file(trial) || !one.info || !one.info->expected_frames) {
     return Done{};
   }
   const int frames = *one.info->expected_frames;
@@ -181,7 +181,7 @@ void assess_video_lengths(const Session& session,
   constexpr double kMinShortfall_s = 0.5;
   constexpr double kMinShortfallShare = 0.05;
   if (trial.kind == TrialKind::kCalibration || trial.kind == TrialKind::kFloor ||
-      has_take(trial)) {
+      has_times_file(trial)) {
     return;
   }
   std::size_t max_frames = 0;

@@ -15,7 +15,7 @@ std::optional<Error> explain_missing_board(const recordings::Session& session,
                                            const CameraDetections& camera) {
   std::optional<capture::FrameRange> searched;
   std::string frames = "any of its " + std::to_string(camera.frames.size()) + " frames";
-  if (trial.frames && !has_take(trial)) {
+  if (trial.frames && !has_times_file(trial)) {
     searched = capture::FrameRange{trial.frames->first, trial.frames->last};
     frames = "frames " + std::to_string(searched->first) + " to " +
              std::to_string(searched->last);

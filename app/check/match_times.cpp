@@ -265,7 +265,7 @@ void warn_of_unused_take(const Trial& trial, std::vector<Finding>& findings) {
 
 }  // namespace
 
-bool has_take(const Trial& trial) {
+bool has_times_file(const Trial& trial) {
   const auto file = take_file_of(trial.videos.front());
   const auto has_same_file = [&](const TrialVideo& v) { return take_file_of(v) == file; };
   std::error_code ignored;
@@ -277,13 +277,13 @@ bool has_take(const Trial& trial) {
 Status match_times(const Trial& trial,
                    std::vector<CameraDetections>& found,
                    std::vector<Finding>& findings) {
-  if (has_take(trial) && trial.slow_motion != 1.0) {
+  if (has_times_file(trial) && trial.slow_motion != 1.0) {
     return bad_input(take_file_of(trial.videos.front()).string(),
                      "it states when the frames of trial " + trial.name +
                          " were taken, so that slow_motion has no meaning",
                      "remove slow_motion of that trial from session.toml");
   }
-  if (has_take(trial)) return match_take(trial, found, findings);
+  if (has_times_file(trial)) return match_take(trial, found, findings);
   warn_of_unused_take(trial, findings);
   if (trial.rate || trial.frames) return check_frame_times(trial, found, findings);
   std::vector<capture::CameraTimes> uneven;

@@ -34,6 +34,6 @@ namespace marey::app {
 /// Returns true if match_times() renumbers the frames of the trial by a file of times:
 /// the trial was recorded, all its videos lie in one folder with such a file, or the
 /// session names a table of times. In these cases all frames of its videos are needed.
-[[nodiscard]] bool has_take(const recordings::Trial& trial);
+[[nodiscard]] bool has_times_file(const recordings::Trial& trial);
 
 }  // namespace marey::app

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "app/check/common_sigma.h"
+#include "app/check/mean_centre_sigma.h"
 #include "app/record/record_device.h"
 #include "capture/feeds/device_feed.h"
 #include "live/vmc/vrchat_trackers.h"
@@ -278,7 +278,7 @@ Result<OpenedLive> open_live(const LiveArguments& arguments, Console& console) {
     out.vrchat.push_back(*std::move(address));
   }
   out.settings.vrchat = !out.vrchat.empty();
-  out.settings.camera_sigma_m = common_sigma_m(out.calibration.quality);
+  out.settings.camera_sigma_m = mean_centre_sigma_m(out.calibration.quality);
   out.settings.lag_known.assign(chosen->size(), false);
   out.detector.families = session->families;
   const Status feeds =

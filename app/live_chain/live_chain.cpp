@@ -96,7 +96,7 @@ const LiveResult& LiveChain::step(const LiveInstant& instant,
   result_.solve_s = solving.seconds();
   const Stopwatch retargeting;
   if (result_.track.state != TrackState::kWaiting) {
-    put_on_avatars(since_last_s);
+    retarget_avatars(since_last_s);
     drag(requests, since_last_s);
   }
   result_.retarget_s = retargeting.seconds();
@@ -129,7 +129,7 @@ void LiveChain::take_in(const LiveInstant& instant) {
   }
 }
 
-void LiveChain::put_on_avatars(double since_last_s) {
+void LiveChain::retarget_avatars(double since_last_s) {
   const bool is_lost = result_.track.state == TrackState::kLost;
   for (std::size_t a = 0; a < retargets_.size(); ++a) {
     // After a relocalization the feet must not be dragged to the new position.

@@ -78,7 +78,7 @@ class LiveChain {
             std::span<const Camera> cameras,
             const LiveSettings& settings);
   void take_in(const LiveInstant& instant);
-  void put_on_avatars(double since_last_s);
+  void retarget_avatars(double since_last_s);
   void drag(const LiveRequests& requests, double since_last_s);
   void encode(Timestamp time, const LiveRequests& requests);
 

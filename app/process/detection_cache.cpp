@@ -54,7 +54,7 @@ Result<std::string> cache_key(const TrialVideo& video,
   std::string key = *content;
   if (!wanted.families.empty()) key += " tracker-2" + cache_words(wanted.families);
   if (wanted.target) key += cache_words(*wanted.target);
-  if (trial.frames && !has_take(trial)) {
+  if (trial.frames && !has_times_file(trial)) {
     key += " frames " + std::to_string(trial.frames->first) + "-" +
            std::to_string(trial.frames->last);
   }

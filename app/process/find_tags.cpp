@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "app/check/check_detections.h"
-#include "app/check/check_sights.h"
+#include "app/check/check_target_seen.h"
 #include "app/check/check_videos.h"
 #include "app/check/match_times.h"
 #include "app/process/detection_cache.h"
@@ -43,7 +43,7 @@ capture::CameraInput input_of(const Trial& trial, const TrialVideo& video) {
   capture::CameraInput input;
   input.path = video.path;
   input.camera = video.camera;
-  if (trial.frames && !has_take(trial)) {
+  if (trial.frames && !has_times_file(trial)) {
     input.range = {trial.frames->first, trial.frames->last};
   }
   input.rate = trial.rate;  // A folder of images has no other.
@@ -120,8 +120,8 @@ Result<std::vector<CameraDetections>> find_tags(const recordings::Session& sessi
   return read;
 }
 
-void take_off_shrinkage(std::span<const Camera> cameras,
-                        std::vector<CameraDetections>& detections) {
+void correct_shrinkage(std::span<const Camera> cameras,
+                       std::vector<CameraDetections>& detections) {
   for (CameraDetections& camera : detections) {
     const TagShrinkage& shrinkage = cameras[index(camera.camera)].tag_shrinkage;
     for (FrameDetections& frame : camera.frames) {

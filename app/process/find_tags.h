@@ -39,7 +39,7 @@ namespace marey::app {
 
 /// Moves the corners of every tag to where they would be detected without shrinkage.
 /// Precondition: the detections are of these cameras.
-void take_off_shrinkage(std::span<const Camera> cameras,
-                        std::vector<CameraDetections>& detections);
+void correct_shrinkage(std::span<const Camera> cameras,
+                       std::vector<CameraDetections>& detections);
 
 }  // namespace marey::app

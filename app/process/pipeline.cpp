@@ -7,15 +7,15 @@
 #include <utility>
 
 #include "app/check/assess_body.h"
-#include "app/check/assess_clocks.h"
 #include "app/check/assess_moved_camera.h"
+#include "app/check/assess_offsets.h"
 #include "app/check/check_detections.h"
 #include "app/check/check_ids.h"
 #include "app/check/check_session.h"
 #include "app/check/check_trial_kinds.h"
 #include "app/check/check_videos.h"
-#include "app/check/common_sigma.h"
 #include "app/check/find_turned_video.h"
+#include "app/check/mean_centre_sigma.h"
 #include "app/motion/retarget_files.h"
 #include "app/motion/write_motion.h"
 #include "app/process/find_tags.h"
@@ -225,7 +225,7 @@ Result<std::vector<CameraDetections>> Pipeline::unshrunk_detections_of(
     const Trial& trial) {
   auto detections = detections_of(trial);
   if (!detections) return detections.error();
-  take_off_shrinkage(cameras_, *detections);
+  correct_shrinkage(cameras_, *detections);
   return detections;
 }
 
@@ -321,7 +321,7 @@ Result<reconstruct::SolvedTrial> Pipeline::solve_trial(const Trial& trial,
   reconstruct::SolveMotionOptions options;
   std::vector<CameraQuality> quality;
   for (const ReportCamera& camera : report_.cameras) quality.push_back(camera.quality);
-  options.camera_sigma_m = common_sigma_m(quality);
+  options.camera_sigma_m = mean_centre_sigma_m(quality);
   auto solved =
       reconstruct::solve_motion(*body_, cameras_, *detections, options, progress);
   if (!solved) return in_session(solved.error());

@@ -59,7 +59,7 @@ Status Pipeline::check_subject(const SessionRig& found,
                                std::vector<CameraDetections> standing) const {
   if (standing.empty() || session_.tags.empty()) return Done{};
   const auto& cameras = found.rig.cameras;
-  take_off_shrinkage(cameras, standing);
+  correct_shrinkage(cameras, standing);
   const Status ok = reconstruct::check_views(cameras, standing, session_.tags);
   return ok ? check_upright(session_, cameras, standing) : ok;
 }

@@ -16,9 +16,9 @@ namespace {
 
 using retarget::RetargetedMotion;
 
-Result<RetargetedMotion> put_on_live(const Motion& source,
-                                     const Skeleton& avatar,
-                                     const retarget::RetargetOptions& options) {
+Result<RetargetedMotion> retarget_live(const Motion& source,
+                                       const Skeleton& avatar,
+                                       const retarget::RetargetOptions& options) {
   // Contacts, and the figures `before` the ground, are computed as for whole motions.
   retarget::RetargetOptions free = options;
   free.adapt_ground = false;
@@ -102,7 +102,7 @@ retarget::Touches kept_of(const retarget::Touches& touches, const Kept& kept) {
 Result<RetargetedMotion> put_on_as_it_is(const Motion& source,
                                          const Skeleton& avatar,
                                          const RetargetAtRateOptions& options) {
-  return options.live ? put_on_live(source, avatar, options.retarget)
+  return options.live ? retarget_live(source, avatar, options.retarget)
                       : retarget::retarget_motion(source, avatar, options.retarget);
 }
 

@@ -189,7 +189,7 @@ Status retarget_one_avatar(const Motion& source,
   return check_avatar_result(body, written, work, avatar);
 }
 
-void put_on_all(const Motion& source, Work& work) {
+void retarget_all(const Motion& source, Work& work) {
   const int count = static_cast<int>(work.opened.size());
   const Progress progress = count > 1 ? work.console.stage("retarget") : Progress();
   for (int i = 0; i < count; ++i) {
@@ -296,7 +296,7 @@ Exit run_retarget(const RetargetArguments& args, Console& console) {
   const Motion& motion = source->raw.motion;
   work.run.source =
       args.options.rate_hz ? resample(motion, FrameRate{*args.options.rate_hz}) : motion;
-  put_on_all(motion, work);
+  retarget_all(motion, work);
   if (!has_any(work.run)) return work.exit;
   if (const Status ok = measure(work); !ok) {
     return console.fail(of_file(args.motion, ok.error()));

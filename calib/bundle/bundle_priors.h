@@ -9,7 +9,7 @@
 #include <ceres/ceres.h>
 #include <ceres/rotation.h>
 
-#include "calib/model/see_point.h"
+#include "calib/model/project_point.h"
 #include "calib/model/sighting_cost.h"
 #include "core/camera.h"
 

@@ -8,7 +8,7 @@
 #include <Eigen/Dense>
 #include <ceres/jet.h>
 
-#include "calib/model/see_point.h"
+#include "calib/model/project_point.h"
 #include "core/base/assert.h"
 
 namespace marey::calib {
@@ -72,7 +72,7 @@ std::optional<glm::dmat3> point_covariance(std::span<const Camera> cameras,
       3, kPerCamera * static_cast<Eigen::Index>(seen_by.size()));
   for (std::size_t i = 0; i < seen_by.size(); ++i) {
     MAREY_ASSERT(index(seen_by[i]) < cameras.size());
-    const auto sight = see_point(cameras[index(seen_by[i])], p_in_world);
+    const auto sight = project_point(cameras[index(seen_by[i])], p_in_world);
     if (!sight) return std::nullopt;
     information += weight * sight->by_point.transpose() * sight->by_point;
     by_camera_errors.middleCols<kPerCamera>(kPerCamera * static_cast<Eigen::Index>(i)) =

@@ -18,8 +18,8 @@ namespace {
 /// camera_from_board of every view with a solution, by camera and instant.
 using Sightings = std::vector<std::map<int, RigidTransform>>;
 
-Sightings see_boards(std::span<const BoardView> views,
-                     std::span<const Intrinsics> intrinsics) {
+Sightings locate_boards(std::span<const BoardView> views,
+                        std::span<const Intrinsics> intrinsics) {
   Sightings sightings(intrinsics.size());
   for (const BoardView& view : views) {
     const std::size_t c = index(view.camera);
@@ -124,7 +124,7 @@ Result<RigGuess> place_cameras(std::span<const BoardView> views,
                                std::span<const std::string> names,
                                const CalibrationTarget& board,
                                bool needs_floor) {
-  const Sightings sightings = see_boards(views, intrinsics);
+  const Sightings sightings = locate_boards(views, intrinsics);
   std::vector<Link> edges;
   for (std::size_t a = 0; a < sightings.size(); ++a) {
     for (std::size_t b = a + 1; b < sightings.size(); ++b) {

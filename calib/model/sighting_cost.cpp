@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calib/model/see_point.h"
+#include "calib/model/project_point.h"
 #include "core/base/cross_matrix.h"
 
 namespace marey::calib {

@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-#include "calib/model/see_point.h"
+#include "calib/model/project_point.h"
 
 namespace marey::calib {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "calib/model/see_point.h"
-#include "calib/plan/see_tag.h"
+#include "calib/model/project_point.h"
+#include "calib/plan/tag_visibility.h"
 #include "core/base/cross_matrix.h"
 
 namespace marey::calib {
@@ -33,7 +33,7 @@ std::optional<ViewRows> rows_of(const Camera& camera,
   ViewRows rows;
   for (int c = 0; c < 4; ++c) {
     const glm::dvec3& corner = corners[static_cast<std::size_t>(c)];
-    const auto sight = see_point(camera, corner);
+    const auto sight = project_point(camera, corner);
     if (!sight) return std::nullopt;
     const Eigen::Matrix<double, 2, 3> by_point = sight->by_point / sigma_px;
     const Eigen::Vector3d from_bone = to_eigen(corner - world_from_bone.translation);
@@ -62,7 +62,7 @@ std::vector<BodyView> views_of(std::span<const Camera> cameras,
         place[index(tag.tag.segment)] * tag.segment_from_tag;
     const TagCorners corners = corners_in_world(world_from_tag, tag.tag.size_m);
     for (std::size_t c = 0; c < cameras.size(); ++c) {
-      const auto side_px = side_seen_px(cameras[c], world_from_tag, corners, options);
+      const auto side_px = visible_side_px(cameras[c], world_from_tag, corners, options);
       if (!side_px) continue;
       const glm::dvec3 eye = centre_in_world(cameras[c]);
       const bool hidden =

@@ -10,7 +10,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "calib/plan/see_tag.h"
+#include "calib/plan/tag_visibility.h"
 #include "calib/rig/calibrate_cameras.h"
 #include "calib/rig/make_calibrated_rig.h"
 #include "core/base/assert.h"
@@ -95,13 +95,13 @@ RigidTransform waved(const ErrorMapGrid& grid,
   return {world_from_face, place - world_from_face * middle_of(board)};
 }
 
-void see_board(std::span<const Camera> cameras,
-               const AprilGrid& board,
-               const RigidTransform& world_from_board,
-               std::size_t frame,
-               const CornerSigma& corner_sigma,
-               const PlanOptions& options,
-               std::vector<CameraDetections>& out) {
+void add_board_views(std::span<const Camera> cameras,
+                     const AprilGrid& board,
+                     const RigidTransform& world_from_board,
+                     std::size_t frame,
+                     const CornerSigma& corner_sigma,
+                     const PlanOptions& options,
+                     std::vector<CameraDetections>& out) {
   const glm::dquat into_board = rotation_from_vector({kPi, 0.0, 0.0});
   for (int i = 0; i < board.tag_count(); ++i) {
     const TagId id{board.first_id + i};
@@ -111,7 +111,7 @@ void see_board(std::span<const Camera> cameras,
         world_from_board * RigidTransform{into_board, centre};
     const TagCorners corners = corners_in_world(world_from_tag, board.tag_size_m);
     for (std::size_t c = 0; c < cameras.size(); ++c) {
-      const auto side_px = side_seen_px(cameras[c], world_from_tag, corners, options);
+      const auto side_px = visible_side_px(cameras[c], world_from_tag, corners, options);
       if (!side_px) continue;
       TagDetection tag;
       tag.id = id;
@@ -154,20 +154,20 @@ Result<RigCovariance> plan_calibration(std::span<const Camera> cameras,
   const std::vector<double> headings = headings_of(cameras, middle);
   std::vector<CameraDetections> in_hand = empty_detections(cameras, kWavedFrames);
   for (int f = 0; f < kWavedFrames; ++f) {
-    see_board(cameras,
-              board,
-              waved(grid, board, headings, f / static_cast<double>(kWavedFrames)),
-              static_cast<std::size_t>(f),
-              corner_sigma,
-              options,
-              in_hand);
+    add_board_views(cameras,
+                    board,
+                    waved(grid, board, headings, f / static_cast<double>(kWavedFrames)),
+                    static_cast<std::size_t>(f),
+                    corner_sigma,
+                    options,
+                    in_hand);
   }
   std::vector<CameraDetections> floor = empty_detections(cameras, kFloorFrames);
   // Face up, its x along the world's X, its y along -Z.
   const RigidTransform lying{rotation_from_vector({-0.5 * kPi, 0.0, 0.0}),
                              {middle.x, board.thickness_m, middle.z}};
   for (std::size_t f = 0; f < kFloorFrames; ++f) {
-    see_board(cameras, board, lying, f, corner_sigma, options, floor);
+    add_board_views(cameras, board, lying, f, corner_sigma, options, floor);
   }
   std::vector<std::string> names;
   for (const Camera& camera : cameras) names.push_back(camera.name);

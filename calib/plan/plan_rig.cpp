@@ -13,8 +13,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "calib/model/see_point.h"
-#include "calib/plan/see_tag.h"
+#include "calib/model/project_point.h"
+#include "calib/plan/tag_visibility.h"
 #include "core/base/assert.h"
 #include "core/base/cross_matrix.h"
 #include "core/base/quantile.h"
@@ -48,7 +48,7 @@ std::optional<Eigen::Matrix<double, 6, 6>> pose_covariance(
     MAREY_ASSERT(sigma_px > 0.0);
     const double weight = 1.0 / (sigma_px * sigma_px);
     for (const glm::dvec3& corner : corners) {
-      const auto sight = see_point(cameras[index(view.camera)], corner);
+      const auto sight = project_point(cameras[index(view.camera)], corner);
       if (!sight) return std::nullopt;
       Eigen::Matrix<double, 2, 6> by_pose;
       by_pose << -sight->by_point *
@@ -156,7 +156,7 @@ ExpectedTag expect_tag(std::span<const Camera> cameras,
   ExpectedTag out;
   std::vector<View> views;
   for (std::size_t c = 0; c < cameras.size(); ++c) {
-    const auto side_px = side_seen_px(cameras[c], world_from_tag, corners, options);
+    const auto side_px = visible_side_px(cameras[c], world_from_tag, corners, options);
     if (!side_px) continue;
     views.push_back({CameraId{static_cast<int>(c)}, *side_px});
     out.seen_by.push_back(views.back().camera);

@@ -9,7 +9,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "calib/model/see_point.h"
+#include "calib/model/project_point.h"
 #include "core/base/cross_matrix.h"
 #include "core/human/posture_priors.h"
 

@@ -9,7 +9,7 @@
 #include <Eigen/Dense>
 #include <glm/geometric.hpp>
 
-#include "calib/model/see_point.h"
+#include "calib/model/project_point.h"
 #include "calib/model/target_velocity.h"
 #include "core/base/assert.h"
 #include "core/base/cross_matrix.h"

@@ -12,7 +12,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "calib/model/planar_pose.h"
-#include "calib/model/see_point.h"
+#include "calib/model/project_point.h"
 #include "calib/rig/make_calibrated_rig.h"
 #include "core/base/assert.h"
 #include "core/base/quantile.h"

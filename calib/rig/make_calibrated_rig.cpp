@@ -10,7 +10,7 @@
 
 #include <Eigen/Dense>
 
-#include "calib/model/see_point.h"
+#include "calib/model/project_point.h"
 #include "calib/model/target_views.h"
 #include "core/base/quantile.h"
 

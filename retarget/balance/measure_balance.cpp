@@ -14,9 +14,9 @@
 #include "core/pose.h"
 #include "retarget/body/centre_of_mass.h"
 #include "retarget/body/foot_shape.h"
-#include "retarget/body/t_pose_turn.h"
+#include "retarget/body/rotation_from_t_pose.h"
 #include "retarget/contacts/frame_marks.h"
-#include "retarget/feet/leg_on_foot.h"
+#include "retarget/feet/leg_placement.h"
 
 namespace marey::retarget {
 namespace {
@@ -105,12 +105,12 @@ Sole sole_of(const BodyMap& map,
              int side) {
   const FootMap& foot = map.feet[static_cast<std::size_t>(side)];
   const JointIndex ankle = map.leg(side).end;
-  const glm::dquat turn = turn_off_t_pose(map, world_from_joint, ankle);
+  const glm::dquat turn = rotation_from_t_pose(map, world_from_joint, ankle);
   const glm::dvec3 at = world_from_joint[index(ankle)].translation;
   const glm::dvec3 ball = at + turn * foot.ball_from_ankle_in_t_pose;
   const auto toes = map.joint_of[index(toes_bone(side))];
   const glm::dquat toes_turn =
-      toes ? turn_off_t_pose(map, world_from_joint, *toes) : turn;
+      toes ? rotation_from_t_pose(map, world_from_joint, *toes) : turn;
   return {ground_projection(at + turn * foot.heel_from_ankle_in_t_pose),
           ground_projection(ball),
           ground_projection(ball + toes_turn * foot.tip_from_ball_in_t_pose)};

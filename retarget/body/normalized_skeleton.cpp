@@ -11,7 +11,7 @@
 #include "core/base/assert.h"
 #include "retarget/base/smooth_step.h"
 #include "retarget/body/place_spine.h"
-#include "retarget/body/t_pose_turn.h"
+#include "retarget/body/rotation_from_t_pose.h"
 
 namespace marey::retarget {
 namespace {
@@ -103,8 +103,8 @@ NormalizedLimb normalize_limb(const BodyMap& map,
   const glm::dvec3 root = world_from_joint[index(limb.upper)].translation;
   const LimbPlaces p{world_from_joint[index(limb.lower)].translation - root,
                      world_from_joint[index(limb.end)].translation - root};
-  const glm::dquat upper = turn_off_t_pose(map, world_from_joint, limb.upper);
-  const glm::dquat lower = turn_off_t_pose(map, world_from_joint, limb.lower);
+  const glm::dquat upper = rotation_from_t_pose(map, world_from_joint, limb.upper);
+  const glm::dquat lower = rotation_from_t_pose(map, world_from_joint, limb.lower);
 
   NormalizedLimb out;
   out.extension = std::min(glm::length(p.end_from_root) / limb.length_m(), 1.0);
@@ -171,10 +171,11 @@ void normalize_spine(const BodyMap& map,
                      NormalizedPose& out) {
   const auto add_section = [&](const SpineSection& section, RotationCurve& curve) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(section.count); ++i) {
-      curve.add(section.at[i], turn_off_t_pose(map, world_from_joint, section.joints[i]));
+      curve.add(section.at[i],
+                rotation_from_t_pose(map, world_from_joint, section.joints[i]));
     }
   };
-  const glm::dquat hips = turn_off_t_pose(map, world_from_joint, map.hips());
+  const glm::dquat hips = rotation_from_t_pose(map, world_from_joint, map.hips());
   out.abdomen.count = 0;
   out.torso.count = 0;
   out.abdomen.add(0.0, hips);
@@ -182,7 +183,8 @@ void normalize_spine(const BodyMap& map,
     add_section(map.abdomen, out.abdomen);
   } else if (map.torso.count > 0) {
     // One stiff trunk: a body that has an abdomen bends it half way.
-    const glm::dquat torso = turn_off_t_pose(map, world_from_joint, map.torso.joints[0]);
+    const glm::dquat torso =
+        rotation_from_t_pose(map, world_from_joint, map.torso.joints[0]);
     out.abdomen.add(1.0, glm::slerp(hips, torso, 0.5));
   }
   out.torso.add(0.0, sample(out.abdomen, 1.0));
@@ -266,7 +268,7 @@ void normalize(const BodyMap& map,
     const auto joint = map.joint_of[i];
     const bool own = joint && map.joints[index(*joint)].role == JointRole::kSegment;
     out.segments[i].reset();
-    if (own) out.segments[i] = turn_off_t_pose(map, world_from_joint, *joint);
+    if (own) out.segments[i] = rotation_from_t_pose(map, world_from_joint, *joint);
   }
   for (std::size_t i = 0; i < out.limbs.size(); ++i) {
     out.limbs[i].reset();

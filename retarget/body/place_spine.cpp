@@ -10,7 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "retarget/body/t_pose_turn.h"
+#include "retarget/body/rotation_from_t_pose.h"
 
 namespace marey::retarget {
 namespace {
@@ -237,7 +237,7 @@ std::array<glm::dvec3, 2> shoulders_missing_m(
     for (std::size_t i = 0; i < static_cast<std::size_t>(section.count); ++i) {
       run.add(from + (to - from) * section.at[i],
               section.bone_in_t_pose[i],
-              turn_off_t_pose(map, world_from_joint, section.joints[i]));
+              rotation_from_t_pose(map, world_from_joint, section.joints[i]));
     }
   };
   add(map.abdomen, map.spine->shares.abdomen, map.spine->shares.torso);

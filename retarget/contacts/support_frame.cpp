@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "retarget/base/smooth_step.h"
-#include "retarget/body/t_pose_turn.h"
+#include "retarget/body/rotation_from_t_pose.h"
 
 namespace marey::retarget {
 namespace {
@@ -87,7 +87,7 @@ SupportFrame support_frame(const BodyMap& map,
     const auto s = static_cast<std::size_t>(side);
     const JointIndex joint = map.leg(side).end;
     const RigidTransform& ankle = world_from_joint[index(joint)];
-    const glm::dvec3 ball = turn_off_t_pose(map, world_from_joint, joint) *
+    const glm::dvec3 ball = rotation_from_t_pose(map, world_from_joint, joint) *
                             map.feet[s].ball_from_ankle_in_t_pose;
     const glm::dvec2 foot(ball.x, ball.z);
     middle[s] =

@@ -13,7 +13,7 @@
 #include "retarget/base/smooth_step.h"
 #include "retarget/contacts/frame_marks.h"
 #include "retarget/feet/footprint.h"
-#include "retarget/feet/leg_on_foot.h"
+#include "retarget/feet/leg_placement.h"
 
 namespace marey::retarget {
 namespace {

@@ -15,7 +15,7 @@
 #include "core/transform.h"
 #include "retarget/base/smooth_cover.h"
 #include "retarget/contacts/frame_marks.h"
-#include "retarget/feet/leg_on_foot.h"
+#include "retarget/feet/leg_placement.h"
 
 namespace marey::retarget {
 namespace {

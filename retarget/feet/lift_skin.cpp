@@ -11,7 +11,7 @@
 #include "retarget/body/arm_shift.h"
 #include "retarget/body/normalized_skeleton.h"
 #include "retarget/contacts/frame_marks.h"
-#include "retarget/feet/leg_on_foot.h"
+#include "retarget/feet/leg_placement.h"
 
 namespace marey::retarget {
 namespace {

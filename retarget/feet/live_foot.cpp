@@ -10,7 +10,7 @@
 
 #include "core/transform.h"
 #include "retarget/base/smooth_step.h"
-#include "retarget/feet/leg_on_foot.h"
+#include "retarget/feet/leg_placement.h"
 
 namespace marey::retarget {
 namespace {

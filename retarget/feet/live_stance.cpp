@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
-#include "retarget/feet/leg_on_foot.h"
+#include "retarget/feet/leg_placement.h"
 
 namespace marey::retarget {
 

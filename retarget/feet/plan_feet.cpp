@@ -7,9 +7,9 @@
 
 #include "core/base/assert.h"
 #include "core/pose.h"
-#include "retarget/body/t_pose_turn.h"
+#include "retarget/body/rotation_from_t_pose.h"
 #include "retarget/feet/foot_plan.h"
-#include "retarget/feet/leg_on_foot.h"
+#include "retarget/feet/leg_placement.h"
 
 namespace marey::retarget {
 namespace {
@@ -26,9 +26,9 @@ std::vector<FootPlace> places_of(const Motion& motion,
   for (const Pose& pose : motion.poses) {
     world_from_joints(motion.skeleton, pose, world);
     FootPlace place{
-        world[index(ankle)].translation, turn_off_t_pose(map, world, ankle), {}};
+        world[index(ankle)].translation, rotation_from_t_pose(map, world, ankle), {}};
     place.ankle_in_world.y -= floor_height_m;
-    place.toes = toes ? turn_off_t_pose(map, world, *toes) : place.foot;
+    place.toes = toes ? rotation_from_t_pose(map, world, *toes) : place.foot;
     out.push_back(place);
   }
   return out;

@@ -5,8 +5,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
-#include "retarget/body/t_pose_turn.h"
-#include "retarget/feet/leg_on_foot.h"
+#include "retarget/body/rotation_from_t_pose.h"
+#include "retarget/feet/leg_placement.h"
 
 namespace marey::retarget {
 
@@ -22,7 +22,7 @@ void FootUnroller::step(const BodyMap& source,
     auto& toes = pose.segments[index(toes_bone(s))];
     if (!foot) continue;
     const glm::dvec3 shin_up =
-        turn_off_t_pose(source, world_from_joint, source.leg(s).lower) * up;
+        rotation_from_t_pose(source, world_from_joint, source.leg(s).lower) * up;
     const double along = glm::dot(*foot * up, shin_up);
     is_rolled_[side] = is_rolled_[side] ? along < kRolled : along < -kRolled;
     if (!is_rolled_[side]) continue;

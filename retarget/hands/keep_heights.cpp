@@ -11,7 +11,7 @@
 #include "core/base/assert.h"
 #include "core/pose.h"
 #include "retarget/base/smooth_step.h"
-#include "retarget/feet/leg_on_foot.h"
+#include "retarget/feet/leg_placement.h"
 
 namespace marey::retarget {
 namespace {

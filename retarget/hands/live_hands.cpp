@@ -9,7 +9,7 @@
 
 #include "core/transform.h"
 #include "retarget/base/smooth_step.h"
-#include "retarget/body/t_pose_turn.h"
+#include "retarget/body/rotation_from_t_pose.h"
 #include "retarget/hands/arm_clearance.h"
 
 namespace marey::retarget {
@@ -215,7 +215,7 @@ void LiveHands::move(const PosedVolume& source,
   keep_relations(scene);
   const JointIndex hips = avatar.map.hips();
   const glm::dquat world_from_axes =
-      turn_off_t_pose(avatar.map, avatar.world_from_joint, hips);
+      rotation_from_t_pose(avatar.map, avatar.world_from_joint, hips);
   for (int side = 0; side < 2; ++side) {
     if (!scene.has[side_index(side)]) continue;
     Arm& arm = arms_[side_index(side)];

@@ -16,7 +16,7 @@
 #include "core/transform.h"
 #include "retarget/base/smooth_cover.h"
 #include "retarget/base/smooth_step.h"
-#include "retarget/body/t_pose_turn.h"
+#include "retarget/body/rotation_from_t_pose.h"
 #include "retarget/hands/arm_clearance.h"
 
 namespace marey::retarget {
@@ -260,7 +260,7 @@ ArmCollisionReport resolve_arm_collisions(const VolumeInMotion& source,
   std::vector<glm::dquat> world_from_axes;
   const JointIndex hips = avatar.map.hips();
   for (std::size_t t = 0; t < count; ++t) {
-    world_from_axes.push_back(turn_off_t_pose(avatar.map, avatar.frames[t], hips));
+    world_from_axes.push_back(rotation_from_t_pose(avatar.map, avatar.frames[t], hips));
   }
   const double half_frames =
       std::clamp(0.5 * options.anticipation_s * rate.hz, 1.0, static_cast<double>(count));

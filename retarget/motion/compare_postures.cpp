@@ -13,9 +13,9 @@
 #include "core/base/assert.h"
 #include "core/base/quantile.h"
 #include "core/pose.h"
-#include "retarget/body/t_pose_turn.h"
+#include "retarget/body/rotation_from_t_pose.h"
 #include "retarget/contacts/measure_contacts.h"
-#include "retarget/feet/leg_on_foot.h"
+#include "retarget/feet/leg_placement.h"
 
 namespace marey::retarget {
 namespace {
@@ -173,7 +173,7 @@ class FeetComparison {
                                          B foot) {
     const auto joint = map.joint_of[index(foot)];
     if (!joint) return std::nullopt;
-    return turn_off_t_pose(map, frames, *joint) * glm::dvec3(0, 0, 1);
+    return rotation_from_t_pose(map, frames, *joint) * glm::dvec3(0, 0, 1);
   }
 
   const BodyMap& from_;

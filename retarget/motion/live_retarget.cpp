@@ -9,7 +9,7 @@
 
 #include "core/base/assert.h"
 #include "retarget/feet/ground.h"
-#include "retarget/feet/leg_on_foot.h"
+#include "retarget/feet/leg_placement.h"
 #include "retarget/feet/live_foot.h"
 #include "retarget/feet/live_skin.h"
 #include "retarget/feet/unroll_feet.h"

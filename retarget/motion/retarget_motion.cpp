@@ -13,8 +13,8 @@
 #include "core/pose.h"
 #include "retarget/body/match_carriage.h"
 #include "retarget/body/place_masses.h"
-#include "retarget/body/t_pose_turn.h"
-#include "retarget/feet/leg_on_foot.h"
+#include "retarget/body/rotation_from_t_pose.h"
+#include "retarget/feet/leg_placement.h"
 #include "retarget/feet/unroll_feet.h"
 #include "retarget/hands/keep_heights.h"
 #include "retarget/hands/keep_wrists.h"
@@ -90,7 +90,7 @@ double deepest_sole_m(const Motion& motion, const BodyMap& map) {
   for (const Pose& pose : motion.poses) {
     world_from_joints(motion.skeleton, pose, world_from_joint);
     const auto end_m = [&](JointIndex joint, const glm::dvec3& from_joint_in_t_pose) {
-      const glm::dquat turn = turn_off_t_pose(map, world_from_joint, joint);
+      const glm::dquat turn = rotation_from_t_pose(map, world_from_joint, joint);
       return (world_from_joint[index(joint)].translation + turn * from_joint_in_t_pose).y;
     };
     for (int side = 0; side < 2; ++side) {

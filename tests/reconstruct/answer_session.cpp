@@ -15,9 +15,9 @@
 namespace marey::testing {
 namespace {
 
-/// Returns SolveMotionOptions::camera_sigma_m as app/check/common_sigma.h computes it.
-/// [m]
-double common_sigma_m(const SimulatedSession& session) {
+/// Returns SolveMotionOptions::camera_sigma_m as app/check/mean_centre_sigma.h computes
+/// it. [m]
+double mean_centre_sigma_m(const SimulatedSession& session) {
   double sum_m2 = 0.0;
   for (const double sigma_m : session.rig.centre_sigma_m) sum_m2 += sigma_m * sigma_m;
   return std::sqrt(sum_m2) / static_cast<double>(session.rig.centre_sigma_m.size());
@@ -56,7 +56,7 @@ SessionAnswer answer_session(const SimulatedSession& session) {
   out.body = std::move(fit->body);
   start = thread_time_s();
   reconstruct::SolveMotionOptions options;
-  options.camera_sigma_m = common_sigma_m(session);
+  options.camera_sigma_m = mean_centre_sigma_m(session);
   auto solved =
       reconstruct::solve_motion(out.body, cameras, session.motion.detections, options);
   out.solve_s = thread_time_s() - start;

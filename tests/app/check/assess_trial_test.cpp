@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 
 #include "app/check/assess_body.h"
-#include "app/check/assess_clocks.h"
 #include "app/check/assess_floor_height.h"
+#include "app/check/assess_offsets.h"
 #include "core/skeleton.h"
 #include "reconstruct/tags/trial_residuals.h"
 #include "tests/support/bodies/synthetic_person.h"

@@ -91,7 +91,7 @@ class SmallTake {
 TEST(MatchTimes, PutsAllThatWasFoundInAFrameAtItsInstant) {
   const ScratchFolder folder;
   SmallTake take(folder.path());
-  ASSERT_TRUE(has_take(take.trial));
+  ASSERT_TRUE(has_times_file(take.trial));
   ASSERT_TRUE(take.match());
   for (int k = 0; k < kVideoFrames; ++k) {
     EXPECT_EQ(take.at(0, k), k);
@@ -172,14 +172,14 @@ TEST(MatchTimes, ReportsATakeThatIsNotUsed) {
   SmallTake take(folder / "one");
   fs::create_directories(folder / "other");
   take.trial.videos[1].path = folder / "other" / "cam1.mkv";
-  EXPECT_FALSE(has_take(take.trial));
+  EXPECT_FALSE(has_times_file(take.trial));
   const std::vector<CameraDetections> before = take.found;
   ASSERT_TRUE(take.match());
   EXPECT_EQ(take.found[1].frames.size(), before[1].frames.size());
   ASSERT_EQ(take.findings.size(), 1U);
   EXPECT_NE(take.findings[0].cause.find("it is not used"), std::string::npos);
   std::swap(take.trial.videos[0], take.trial.videos[1]);
-  EXPECT_FALSE(has_take(take.trial));
+  EXPECT_FALSE(has_times_file(take.trial));
 }
 
 /// Videos of the sample: the walk has 30 frames per second, the calibration 5.

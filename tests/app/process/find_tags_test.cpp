@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/check/check_sights.h"
+#include "app/check/check_target_seen.h"
 #include "recordings/text/atomic_file.h"
 #include "tests/support/program/scratch_folder.h"
 

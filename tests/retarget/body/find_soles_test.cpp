@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "retarget/feet/leg_on_foot.h"
+#include "retarget/feet/leg_placement.h"
 #include "retarget/motion/live_retarget.h"
 #include "retarget/motion/retarget_motion.h"
 #include "tests/support/bodies/random_bodies.h"

@@ -30,13 +30,13 @@ RigidTransform board_from_tag(const AprilGrid& board, TagId id) {
   return {rotation_from_vector({std::numbers::pi, 0.0, 0.0}), centre};
 }
 
-void see_board(const std::vector<Camera>& cameras,
-               const AprilGrid& board,
-               const RigidTransform& world_from_board,
-               std::size_t frame,
-               const Disturbance& disturbance,
-               Dice& dice,
-               std::vector<CameraDetections>& out) {
+void add_board_views(const std::vector<Camera>& cameras,
+                     const AprilGrid& board,
+                     const RigidTransform& world_from_board,
+                     std::size_t frame,
+                     const Disturbance& disturbance,
+                     Dice& dice,
+                     std::vector<CameraDetections>& out) {
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     for (int i = 0; i < board.tag_count(); ++i) {
       const TagId id{board.first_id + i};
@@ -180,19 +180,19 @@ BoardRecording wave_board(const std::vector<Camera>& cameras,
   BoardRecording out{unseeing(cameras, frames, 10.0, "calibration"),
                      unseeing(cameras, kFloorFrames, 10.0, "floor")};
   for (int f = 0; f < frames; ++f) {
-    see_board(cameras,
-              board,
-              waved(board, f / static_cast<double>(frames)),
-              static_cast<std::size_t>(f),
-              disturbance,
-              dice,
-              out.waved);
+    add_board_views(cameras,
+                    board,
+                    waved(board, f / static_cast<double>(frames)),
+                    static_cast<std::size_t>(f),
+                    disturbance,
+                    dice,
+                    out.waved);
   }
   // Face up, its x along the world's X, its y along -Z.
   const RigidTransform on_floor{rotation_from_vector({-0.5 * std::numbers::pi, 0.0, 0.0}),
                                 {0.0, board.thickness_m, 0.0}};
   for (std::size_t f = 0; f < kFloorFrames; ++f) {
-    see_board(cameras, board, on_floor, f, disturbance, dice, out.floor);
+    add_board_views(cameras, board, on_floor, f, disturbance, dice, out.floor);
   }
   return out;
 }

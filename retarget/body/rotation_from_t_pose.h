@@ -16,7 +16,7 @@ namespace marey::retarget {
 /// T-pose facing +Z.
 /// Precondition: `world_from_joint` are of the skeleton that `map` was made from, and the
 /// joint is driven (JointRole other than kFree).
-[[nodiscard]] inline glm::dquat turn_off_t_pose(
+[[nodiscard]] inline glm::dquat rotation_from_t_pose(
     const BodyMap& map,
     std::span<const RigidTransform> world_from_joint,
     JointIndex joint) {

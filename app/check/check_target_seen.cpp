@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/check/check_sights.h"
+#include "app/check/check_target_seen.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -96,10 +96,10 @@ Status check_board(const recordings::Session& session,
                    other->seen.remedy);
 }
 
-Status check_seen(const recordings::Session& session,
-                  const Trial& trial,
-                  const CameraDetections& camera,
-                  const ContentToDetect& wanted) {
+Status check_target_seen(const recordings::Session& session,
+                         const Trial& trial,
+                         const CameraDetections& camera,
+                         const ContentToDetect& wanted) {
   const auto in_any = [&](const auto& shows) {
     return std::any_of(camera.frames.begin(), camera.frames.end(), shows);
   };
@@ -188,7 +188,7 @@ Status check_floor_seen(const recordings::Session& session,
             (is_wand ? " on the floor" : " of the board on the floor")));
   }
   if (good.empty()) {
-    return first_poor ? check_seen(session, trial, *first_poor, wanted) : Done{};
+    return first_poor ? check_target_seen(session, trial, *first_poor, wanted) : Done{};
   }
   for (Finding& one : poor_views) {
     one.cause += ", too little: the floor is taken from " + good;

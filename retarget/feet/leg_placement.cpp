@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/feet/leg_on_foot.h"
+#include "retarget/feet/leg_placement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "retarget/body/t_pose_turn.h"
+#include "retarget/body/rotation_from_t_pose.h"
 
 namespace marey::retarget {
 
@@ -20,7 +20,7 @@ FootPlace foot_of(const BodyMap& map,
     const auto joint = map.joint_of[index(bone)];
     if (pose.segments[index(bone)]) return *pose.segments[index(bone)];
     if (!joint) return glm::dquat(1, 0, 0, 0);
-    return turn_off_t_pose(map, world_from_joint, *joint);
+    return rotation_from_t_pose(map, world_from_joint, *joint);
   };
   return {world_from_joint[index(map.leg(side).end)].translation,
           turn(foot_bone(side)),

@@ -12,7 +12,7 @@ namespace marey::app {
 /// Returns the part of the sigma of a point that all cameras see which is caused by the
 /// sigmas of the camera centres: their root sum of squares divided by the number of
 /// cameras. [m]
-[[nodiscard]] inline double common_sigma_m(std::span<const CameraQuality> cameras) {
+[[nodiscard]] inline double mean_centre_sigma_m(std::span<const CameraQuality> cameras) {
   double sum_m2 = 0.0;
   for (const CameraQuality& camera : cameras) {
     sum_m2 += camera.centre_sigma_m * camera.centre_sigma_m;

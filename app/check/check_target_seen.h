@@ -27,10 +27,10 @@ namespace marey::app {
 
 /// Checks that a camera sees the wanted contents in at least one frame. Errors
 /// (kBadInput): no frame shows them; the error names what the video shows instead.
-[[nodiscard]] Status check_seen(const recordings::Session& session,
-                                const recordings::Trial& trial,
-                                const CameraDetections& camera,
-                                const ContentToDetect& wanted);
+[[nodiscard]] Status check_target_seen(const recordings::Session& session,
+                                       const recordings::Trial& trial,
+                                       const CameraDetections& camera,
+                                       const ContentToDetect& wanted);
 
 /// Checks that at least one camera sees enough of the target on the floor. The floor is
 /// computed from the cameras that do; each other camera gives a warning. Errors

@@ -56,7 +56,7 @@ struct PixelOfPoint {
 }
 
 /// The pixel of a world point, and its derivatives by point and camera.
-struct Sight {
+struct ProjectedPoint {
   Eigen::Vector2d pixel_px;
   Eigen::Matrix<double, 2, 3> by_point;  ///< In the world.
   /// In the order of RigCovariance.
@@ -64,8 +64,8 @@ struct Sight {
 };
 
 /// Returns the projection of a world point; nullopt if project() has no result.
-[[nodiscard]] inline std::optional<Sight> see_point(const Camera& camera,
-                                                    const glm::dvec3& p_in_world) {
+[[nodiscard]] inline std::optional<ProjectedPoint> project_point(
+    const Camera& camera, const glm::dvec3& p_in_world) {
   const RigidTransform world_from_camera = inverse(camera.camera_from_world);
   const Eigen::Matrix3d camera_from_world =
       to_eigen(camera.camera_from_world.rotation).toRotationMatrix();
@@ -75,7 +75,7 @@ struct Sight {
                                     camera.intrinsics.parameters().data(),
                                     camera_from_world * from_centre);
   if (!pixel) return std::nullopt;
-  Sight out;
+  ProjectedPoint out;
   out.pixel_px = pixel->pixel_px;
   out.by_point = pixel->by_point * camera_from_world;
   out.by_camera << pixel->by_lens,

@@ -21,9 +21,9 @@ using TagCorners = std::array<glm::dvec3, 4>;
 
 /// Returns the mean side [px] of a tag in a camera that sees it; nullopt if it is turned
 /// away, partly outside the image or too small. `options.tag_size_m` is not used.
-[[nodiscard]] std::optional<double> side_seen_px(const Camera& camera,
-                                                 const RigidTransform& world_from_tag,
-                                                 const TagCorners& corners,
-                                                 const PlanOptions& options);
+[[nodiscard]] std::optional<double> visible_side_px(const Camera& camera,
+                                                    const RigidTransform& world_from_tag,
+                                                    const TagCorners& corners,
+                                                    const PlanOptions& options);
 
 }  // namespace marey::calib

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/check/assess_clocks.h"
+#include "app/check/assess_offsets.h"
 
 #include <algorithm>
 #include <cmath>

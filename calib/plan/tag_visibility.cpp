@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/plan/see_tag.h"
+#include "calib/plan/tag_visibility.h"
 
 #include <cmath>
 
@@ -19,10 +19,10 @@ TagCorners corners_in_world(const RigidTransform& world_from_tag, double size_m)
   return out;
 }
 
-std::optional<double> side_seen_px(const Camera& camera,
-                                   const RigidTransform& world_from_tag,
-                                   const TagCorners& corners,
-                                   const PlanOptions& options) {
+std::optional<double> visible_side_px(const Camera& camera,
+                                      const RigidTransform& world_from_tag,
+                                      const TagCorners& corners,
+                                      const PlanOptions& options) {
   const glm::dvec3 sight = world_from_tag.translation - centre_in_world(camera);
   const glm::dvec3 into_tag = world_from_tag.rotation * glm::dvec3(0.0, 0.0, 1.0);
   const double facing = glm::dot(sight, into_tag) / glm::length(sight);
