@@ -35,7 +35,7 @@ struct AdaptDeparture {
   /// stays near its source, and every constraint met with balance is met. And the worst
   /// of these frames; nullopt: none.
   int needless_frames = 0;
-  std::optional<int> worst_needless_frame;
+  std::optional<int> worst_needless_frame{};
 };
 
 /// Measures the departure of `adapted` from `source`.

@@ -33,13 +33,13 @@ struct RereadFigures {
   /// errors of heading, facing direction, unit and posture. [m]
   double worst_place_m = 0.0;
   HumanBone worst_bone{};
-  std::optional<int> worst_frame;  ///< nullopt: no joint was compared.
+  std::optional<int> worst_frame{};  ///< nullopt: no joint was compared.
   /// For a .vrma: largest distance that the format cannot store. Joints that are no bones
   /// of VRM move the bones below them relative to those above. Not included in
   /// worst_place_m. [m]
   double lost_m = 0.0;
   HumanBone lost_bone{};
-  std::optional<int> lost_frame;
+  std::optional<int> lost_frame{};
   /// World Y of the lowest vertex of the deformed skin in each frame [m]; empty: this
   /// kind of file has no skin.
   std::vector<double> lowest_skin_m;

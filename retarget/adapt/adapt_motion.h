@@ -41,7 +41,7 @@ struct KeptConstraint {
   double mean_error_rad = 0.0;
   double worst_error_rad = 0.0;
   /// Index in the motion's poses; nullopt: the constraint was never fully active.
-  std::optional<int> worst_frame;
+  std::optional<int> worst_frame{};
   /// True if max_iterations ended the solve of a frame in which the constraint was not
   /// met.
   bool ran_out = false;

@@ -30,7 +30,7 @@ struct LiftSkinOptions {
 struct SkinDepth {
   double depth_m = 0.0;          ///< Depth below the floor beyond the allowed; 0: none.
   std::optional<SkinPart> part;  ///< nullopt: none, or not known.
-  std::optional<int> frame;      ///< nullopt: none.
+  std::optional<int> frame{};    ///< nullopt: none.
 };
 
 struct LiftSkinReport {

@@ -146,7 +146,7 @@ struct Missing {
   // Displacements common to both wrists, where hands are on each other. [m]
   VectorChannel common;
   double deepest_m = 0.0;
-  std::optional<int> worst_frame;
+  std::optional<int> worst_frame{};
   double sum_m = 0.0;  // Sum over frames and arms, to judge the effect of a pass.
 
   explicit Missing(std::size_t count) : arms{Arm(count), Arm(count)}, common(count) {}

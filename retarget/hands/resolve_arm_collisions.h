@@ -27,7 +27,7 @@ struct ArmCollisionReport {
   /// after, beyond the source's, slack included. [m]
   double deepest_before_m = 0.0;
   double deepest_after_m = 0.0;
-  std::optional<int> worst_frame;  ///< Frame of the remaining maximum; nullopt: none.
+  std::optional<int> worst_frame{};  ///< Frame of the remaining maximum; nullopt: none.
   int passes = 0;
 };
 

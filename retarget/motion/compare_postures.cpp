@@ -71,7 +71,7 @@ std::optional<bool> feet_backwards(const BodyMap& map, const Frames& frames) {
 struct Fastest {
   double speed_m_per_s = 0.0;
   B bone{};
-  std::optional<int> frame;
+  std::optional<int> frame{};
 };
 
 void keep_faster(const BodyMap& map,
@@ -94,7 +94,7 @@ struct Apart {
   std::vector<double> angles_rad;
   std::vector<int> frames;
   double worst_rad = 0.0;
-  std::optional<int> worst_frame;
+  std::optional<int> worst_frame{};
 
   void add(const glm::dvec3& a, const glm::dvec3& b, int frame) {
     angles_rad.push_back(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));

@@ -19,11 +19,11 @@ struct DirectionFigures {
   HumanBone bone{};  ///< At the near end; kSpine means the trunk.
   double median_rad = 0.0;
   double worst_rad = 0.0;
-  std::optional<int> worst_frame;  ///< nullopt: a body lacks the segment.
+  std::optional<int> worst_frame{};  ///< nullopt: a body lacks the segment.
   /// Largest angle that is exceeded for kSustained_s without interruption, and the start
   /// of that interval; 0 and nullopt if there is none.
   double sustained_rad = 0.0;
-  std::optional<int> sustained_frame;
+  std::optional<int> sustained_frame{};
 };
 /// Shorter departures are single frames or fast movements. [s]
 inline constexpr double kSustained_s = 0.25;
@@ -55,11 +55,11 @@ struct PostureFigures {
   /// Speed of the fastest joint, in body heights (head over floor at rest) per second.
   double fastest = 0.0;
   HumanBone fastest_bone{};
-  std::optional<int> fastest_frame;  ///< nullopt: no joint moves.
+  std::optional<int> fastest_frame{};  ///< nullopt: no joint moves.
   /// The same for the source.
   double source_fastest = 0.0;
   HumanBone source_fastest_bone{};
-  std::optional<int> source_fastest_frame;
+  std::optional<int> source_fastest_frame{};
 };
 
 /// Compares postures by the positions of joints alone, independent of the rest poses.
