@@ -17,7 +17,7 @@ namespace {
 // All costs are times four, so that a change of case can cost a quarter of a letter.
 constexpr std::size_t kLetter = 4;
 
-constexpr std::size_t kLongestWord = 64;  // No key is longer; keeps the search cheap.
+constexpr std::size_t kMaxWordLength = 64;  // No key is longer; keeps the search cheap.
 
 std::size_t cost_of_change(char a, char b) {
   if (a == b) return 0;
@@ -25,7 +25,7 @@ std::size_t cost_of_change(char a, char b) {
 }
 
 std::size_t distance(std::string_view a, std::string_view b) {
-  b = b.substr(0, kLongestWord);
+  b = b.substr(0, kMaxWordLength);
   // Distance from a's first i letters to b's first j.
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j * kLetter;
@@ -45,7 +45,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 std::string suggestion(std::string_view wrong, std::span<const std::string_view> words) {
   MAREY_ASSERT(!words.empty());
-  wrong = wrong.substr(0, kLongestWord);
+  wrong = wrong.substr(0, kMaxWordLength);
   const std::string_view* nearest =
       &*std::min_element(words.begin(), words.end(), [&](auto a, auto b) {
         return distance(wrong, a) < distance(wrong, b);
@@ -53,13 +53,13 @@ std::string suggestion(std::string_view wrong, std::span<const std::string_view>
   const std::size_t letters = std::max(wrong.size(), nearest->size());
   if (5 * distance(wrong, *nearest) <= 2 * kLetter * letters) {
     return std::string("perhaps you mean \"")
-        .append(nearest->substr(0, kLongestWord))
+        .append(nearest->substr(0, kMaxWordLength))
         .append("\"");
   }
   std::string text = "choose one of ";
   for (std::size_t i = 0; i < words.size(); ++i) {
     text.append(i == 0 ? "\"" : ", \"")
-        .append(words[i].substr(0, kLongestWord))
+        .append(words[i].substr(0, kMaxWordLength))
         .append("\"");
   }
   return text;
@@ -68,7 +68,7 @@ std::string suggestion(std::string_view wrong, std::span<const std::string_view>
 std::vector<std::string_view> nearest_words(std::string_view wrong,
                                             std::span<const std::string_view> words,
                                             std::size_t count) {
-  wrong = wrong.substr(0, kLongestWord);
+  wrong = wrong.substr(0, kMaxWordLength);
   // Each distance is computed once: a body may have thousands of joints.
   std::vector<std::pair<std::size_t, std::string_view>> ranked;
   for (const std::string_view word : words)

@@ -145,10 +145,10 @@ class Listening {
 
   void pass_on(double time_s) {
     // A sender that restarted or paused for long is treated as a new sender.
-    constexpr double kLongest_s = 1.0;
+    constexpr double kMaxWait_s = 1.0;
     constexpr double kUsual_s = 1.0 / 60.0;
     const double since_s = last_s_ ? time_s - *last_s_ : kUsual_s;
-    const bool goes_on = since_s > 0.0 && since_s < kLongest_s;
+    const bool goes_on = since_s > 0.0 && since_s < kMaxWait_s;
     last_s_ = time_s;
     if (!goes_on) onward_->retarget.reset();
     onward_->retarget.step(pose_, goes_on ? since_s : kUsual_s, onward_->pose);

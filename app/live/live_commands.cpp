@@ -118,7 +118,7 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
   }
   LiveRunOptions options;
   options.seconds = arguments.seconds;
-  options.longest_wait =
+  options.max_wait =
       std::chrono::nanoseconds(static_cast<long long>(1e6 * arguments.wait_ms));
   catch_stop_signals();
   if (!arguments.seconds) console.say("live; Ctrl-C ends it");

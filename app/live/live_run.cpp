@@ -35,7 +35,7 @@ Result<Cameras> make_cameras(OpenedLive& live, const LiveRunOptions& run) {
     capture::LiveCameraOptions options;
     options.name = camera.name;
     // A shorter wait must not drop pictures that are late at the source.
-    options.stale_after_s = std::max(options.stale_after_s, seconds(run.longest_wait));
+    options.stale_after_s = std::max(options.stale_after_s, seconds(run.max_wait));
     auto one =
         capture::LiveCamera::create(options, camera, *live.feeds[c], live.detector);
     if (!one) return one.error();
@@ -343,7 +343,7 @@ capture::GroupFramesOptions grouping(const OpenedLive& live,
   out.mode = capture::GroupingMode::kLive;
   out.rate = live.settings.rate;
   out.origin = std::nullopt;
-  out.longest_wait = options.longest_wait;
+  out.max_wait = options.max_wait;
   out.capacity = 8;
   return out;
 }

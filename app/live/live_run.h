@@ -46,7 +46,7 @@ class LiveWatcher {
 
 struct LiveRunOptions {
   std::optional<double> seconds;  ///< nullopt: until stopped or the videos end.
-  std::chrono::nanoseconds longest_wait = capture::kLongestWait;
+  std::chrono::nanoseconds max_wait = capture::kMaxGroupWait;
 };
 
 /// Runs until `stop` returns true. One thread per camera detects its tags. The calling

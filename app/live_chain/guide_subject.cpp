@@ -25,7 +25,7 @@ constexpr double kMinPartsShare = 0.6;
 constexpr double kStillShare = 0.015;
 constexpr std::size_t kMinShifts = 4;
 /// Maximum time that counts between two instants.
-constexpr double kLongestStep_s = 0.2;
+constexpr double kMaxGuideStep_s = 0.2;
 /// A part counts as seen after this number of instants with two sightings.
 constexpr int kPairs = 10;
 // Minimum durations, for an early "next" and for recordings that end.
@@ -253,7 +253,7 @@ void SubjectGuide::move(const LiveInstant& instant) {
 }
 
 void SubjectGuide::count_time(Timestamp time) {
-  if (last_) counted_s_ += std::clamp(seconds(time - *last_), 0.0, kLongestStep_s);
+  if (last_) counted_s_ += std::clamp(seconds(time - *last_), 0.0, kMaxGuideStep_s);
   last_ = time;
 }
 

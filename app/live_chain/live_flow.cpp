@@ -16,13 +16,13 @@ constexpr double kSteadyFrom = 0.6;
 // Minimum number of pictures for a decision.
 constexpr long kMinPictures = 4;
 // A stop must be reported within one second, and the caller checks every 0.1 s.
-constexpr double kLongestWait_s = 0.85;
+constexpr double kMaxWait_s = 0.85;
 constexpr double kPeriods = 4.0;
 
 }  // namespace
 
 LiveFlow::LiveFlow(FrameRate rate, Timestamp begin)
-    : stopped_after_s_(std::clamp(kPeriods / rate.hz, kStopped_s, kLongestWait_s)),
+    : stopped_after_s_(std::clamp(kPeriods / rate.hz, kStopped_s, kMaxWait_s)),
       last_instant_(begin),
       last_look_(begin) {
   MAREY_ASSERT(rate.hz > 0.0);

@@ -85,11 +85,11 @@ bool can_be(const LiveSettings& settings) {
     if (stream.avatar && *stream.avatar >= settings.avatars.size()) return false;
   }
   // Limits for any camera and any rig.
-  constexpr double kSlowest_hz = 0.1;
-  constexpr double kFastest_hz = 1e4;
-  constexpr double kLargestSigma_m = 10.0;
-  return settings.rate.hz >= kSlowest_hz && settings.rate.hz <= kFastest_hz &&
-         settings.camera_sigma_m >= 0.0 && settings.camera_sigma_m <= kLargestSigma_m;
+  constexpr double kMinRate_hz = 0.1;
+  constexpr double kMaxRate_hz = 1e4;
+  constexpr double kMaxSigma_m = 10.0;
+  return settings.rate.hz >= kMinRate_hz && settings.rate.hz <= kMaxRate_hz &&
+         settings.camera_sigma_m >= 0.0 && settings.camera_sigma_m <= kMaxSigma_m;
 }
 
 constexpr std::array<std::pair<HandleAction, const char*>, 3> kActions{

@@ -27,11 +27,11 @@ constexpr std::size_t kMaxArrows = 600;
 constexpr std::size_t kMaxOutliers = 200;
 constexpr std::size_t kMaxPlaces = 60;
 
-/// Returns at most `most` items of `all`, evenly spaced.
+/// Returns at most `maximum` items of `all`, evenly spaced.
 template <class T>
-std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
+std::vector<T> thinned(const std::vector<T>& all, std::size_t maximum) {
   std::vector<T> out;
-  const std::size_t count = std::min(all.size(), most);
+  const std::size_t count = std::min(all.size(), maximum);
   for (std::size_t i = 0; i < count; ++i) out.push_back(all[i * all.size() / count]);
   return out;
 }

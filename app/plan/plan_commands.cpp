@@ -61,8 +61,9 @@ PlanReport report_of(const PlanArguments& args, recordings::CapturePlan plan) {
       args.stature_m.value_or(plan.stature_m.value_or(calib::kTypicalStature_m));
   report.grid = calib::grid_before(report.cameras);
   if (plan.volume) {
-    const auto& [least, greatest, step_m] = *plan.volume;
-    report.grid = {{least.x, 0.0, least.y}, {greatest.x, 0.0, greatest.y}, step_m, {}};
+    const auto& [minimum, greatest, step_m] = *plan.volume;
+    report.grid = {
+        {minimum.x, 0.0, minimum.y}, {greatest.x, 0.0, greatest.y}, step_m, {}};
   }
   report.grid.heights_m.clear();
   for (const calib::BodyHeight& height : calib::kBodyHeights) {

@@ -141,12 +141,11 @@ Status Pipeline::write_report() {
   }
   report_.recorded_s = 0.0;
   for (const auto& [name, cameras] : detections_) {
-    double longest_s = 0.0;
+    double max_s = 0.0;
     for (const CameraDetections& camera : cameras) {
-      longest_s =
-          std::max(longest_s, static_cast<double>(camera.frames.size()) / camera.rate.hz);
+      max_s = std::max(max_s, static_cast<double>(camera.frames.size()) / camera.rate.hz);
     }
-    report_.recorded_s += longest_s;
+    report_.recorded_s += max_s;
   }
   if (const Status ok = add_trial_findings(); !ok) return ok;
   std::error_code ignored;

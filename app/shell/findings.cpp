@@ -28,10 +28,11 @@ Exit print_failures(Console& console, std::span<const Finding> findings) {
   return exit;
 }
 
-std::vector<std::string> messages(std::span<const Finding> findings, Severity at_least) {
+std::vector<std::string> messages(std::span<const Finding> findings,
+                                  Severity min_severity) {
   std::vector<std::string> out;
   for (const Finding& finding : findings) {
-    if (finding.severity >= at_least) out.push_back(finding.message());
+    if (finding.severity >= min_severity) out.push_back(finding.message());
   }
   return out;
 }

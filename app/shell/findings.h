@@ -25,7 +25,7 @@ Exit print_failures(Console& console, std::span<const Finding> findings);
 
 /// Returns one line per finding that is at least as severe.
 [[nodiscard]] std::vector<std::string> messages(std::span<const Finding> findings,
-                                                Severity at_least);
+                                                Severity min_severity);
 
 /// Returns "note", "fair" or "poor".
 [[nodiscard]] const char* name(Severity severity);

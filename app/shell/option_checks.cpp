@@ -17,7 +17,7 @@ std::string number_problem(const std::string& word) {
   if (end == word.c_str()) return {};
   if (std::isnan(number)) return "Value " + word + " is not a number";
   if (!std::isfinite(number)) return "Value " + word + " is not finite";
-  if (std::abs(number) > kLargestNumber) return "Value " + word + " is absurdly large";
+  if (std::abs(number) > kMaxNumber) return "Value " + word + " is absurdly large";
   return {};
 }
 

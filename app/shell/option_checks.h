@@ -23,11 +23,11 @@ namespace marey::app {
 }
 
 /// Upper limit of the magnitude of lengths, times, rates and shares in all commands.
-inline constexpr double kLargestNumber = 1e9;
+inline constexpr double kMaxNumber = 1e9;
 
 /// Adds a check to every option of `app` and its subcommands that has a floating-point
 /// value: the value must be a finite number (not nan, inf, 1e999) of at most
-/// kLargestNumber. Other checks of the option remain. Call it after all options are
+/// kMaxNumber. Other checks of the option remain. Call it after all options are
 /// added.
 void refuse_absurd_numbers(CLI::App& app);
 

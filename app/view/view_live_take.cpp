@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kLongestPause_s = 10.0;
+constexpr double kMaxPause_s = 10.0;
 
 fs::path folder_of(const fs::path& what) {
   return what.filename() == recordings::kLiveTakeFile ? what.parent_path() : what;
@@ -29,7 +29,7 @@ fs::path folder_of(const fs::path& what) {
 class Remade {
  public:
   Remade(ViewedRecording& out, FrameRate rate)
-      : out_(out), max_pause_(static_cast<std::int64_t>(kLongestPause_s * rate.hz)) {}
+      : out_(out), max_pause_(static_cast<std::int64_t>(kMaxPause_s * rate.hz)) {}
 
   void add(const LiveResult& result) {
     if (result.track.state == reconstruct::TrackState::kWaiting) return;

@@ -15,14 +15,14 @@ namespace {
 
 /// Returns the distance between two bodies side by side with extended arms.
 double breadth_m(const Skeleton& skeleton) {
-  constexpr double kNarrowest_m = 1.0;
+  constexpr double kMinWidth_m = 1.0;
   double low = 0.0;
   double high = 0.0;
   for (const RigidTransform& joint : world_from_joints(skeleton, rest_pose(skeleton))) {
     low = std::min(low, joint.translation.y);
     high = std::max(high, joint.translation.y);
   }
-  return std::max(kNarrowest_m, 0.8 * (high - low));
+  return std::max(kMinWidth_m, 0.8 * (high - low));
 }
 
 /// Returns the mean position of a body on the floor. Bodies of different size move on

@@ -27,7 +27,7 @@ constexpr int kPostures = 300;
 constexpr std::uint64_t kSeed = 41;
 // Axes are limited one by one: so near to the middle no mix of them is beyond.
 constexpr double kShareOfRange = 0.6;
-constexpr double kFurthest_rad = 1.7;  // Largest angle of free axes.
+constexpr double kMaxAngle_rad = 1.7;  // Largest angle of free axes.
 
 struct Reached {
   StandingScene::Targets targets_in_world{};
@@ -44,8 +44,8 @@ Reached random_reach(const StandingScene& scene, double share, testing::Dice& di
     rotation = glm::slerp(rotation, rotation_from_vector(to_rad), share);
   };
   for (const JointLimit& limit : scene.character.limits) {
-    const glm::dvec3 low = glm::max(limit.min_rad, -kFurthest_rad) * kShareOfRange;
-    const glm::dvec3 high = glm::min(limit.max_rad, kFurthest_rad) * kShareOfRange;
+    const glm::dvec3 low = glm::max(limit.min_rad, -kMaxAngle_rad) * kShareOfRange;
+    const glm::dvec3 high = glm::min(limit.max_rad, kMaxAngle_rad) * kShareOfRange;
     go(index(limit.joint),
        {dice.between(low.x, high.x),
         dice.between(low.y, high.y),

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kStill_m = 0.03;
 constexpr double kLow_m = 0.05;  // Height of an ankle above its lowest one.
-constexpr double kLongestStance_s = 2.0;
+constexpr double kMaxStance_s = 2.0;
 constexpr double kMinExcursion_m = 0.15;
 
 /// Joint positions of one frame that determine the pairs. Sides: left, right.
@@ -54,7 +54,7 @@ class PairFinder {
  public:
   explicit PairFinder(const CapturedClip& clip)
       : places_(places_of(clip)),
-        longest_(static_cast<std::size_t>(kLongestStance_s * clip.rate_hz)) {
+        longest_(static_cast<std::size_t>(kMaxStance_s * clip.rate_hz)) {
     for (std::size_t side = 0; side < 2; ++side) {
       lowest_m_[side] = 1e9;
       for (const Places& p : places_) {
@@ -120,12 +120,12 @@ class PairFinder {
 
 }  // namespace
 
-std::vector<CapturedPair> choose_pairs(const CapturedClip& clip, std::size_t most) {
+std::vector<CapturedPair> choose_pairs(const CapturedClip& clip, std::size_t maximum) {
   auto found = PairFinder(clip).find();
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
     return a.gain_m > b.gain_m;
   });
-  if (found.size() > most) found.resize(most);
+  if (found.size() > maximum) found.resize(maximum);
   std::vector<CapturedPair> pairs;
   for (const Candidate& c : found) pairs.push_back(c.pair);
   std::sort(pairs.begin(), pairs.end(), [](const CapturedPair& a, const CapturedPair& b) {

@@ -41,8 +41,8 @@ namespace {
 /// A foot stands when its ankle is at most this much above the lowest of the clip.
 constexpr double kLowAnkle_m = 0.05;
 /// Targets lie between these shares of the arm's length from the shoulder.
-constexpr double kNearest = 0.45;
-constexpr double kFurthest = 0.94;
+constexpr double kMinReach = 0.45;
+constexpr double kMaxReach = 0.94;
 
 struct Arguments {
   std::filesystem::path data = marey::testing::shared_data();
@@ -78,7 +78,7 @@ struct Stances {
   std::vector<std::vector<JointIndex>> standing;
 };
 
-Stances find_stances(const CapturedClip& clip, std::size_t most) {
+Stances find_stances(const CapturedClip& clip, std::size_t maximum) {
   const Skeleton& skeleton = clip.character.skeleton;
   const auto ends = ends_of(skeleton);
   std::array<double, 2> lowest_m{1e9, 1e9};
@@ -92,8 +92,8 @@ Stances find_stances(const CapturedClip& clip, std::size_t most) {
     }
   }
   Stances out;
-  for (std::size_t n = 0; n < most; ++n) {
-    const std::size_t frame = (2 * n + 1) * clip.poses.size() / (2 * most);
+  for (std::size_t n = 0; n < maximum; ++n) {
+    const std::size_t frame = (2 * n + 1) * clip.poses.size() / (2 * maximum);
     std::vector<JointIndex> standing;
     for (std::size_t side = 0; side < 2; ++side) {
       if (heights_m[frame][side] < lowest_m[side] + kLowAnkle_m) {
@@ -126,7 +126,7 @@ void ask_reaches(const CapturedClip& clip,
       const double arm_m =
           glm::distance(at, world[index(elbow)].translation) +
           glm::distance(world[index(elbow)].translation, world[index(wrist)].translation);
-      std::uniform_real_distribution<double> share(kNearest, kFurthest);
+      std::uniform_real_distribution<double> share(kMinReach, kMaxReach);
       const glm::dvec3 target = at + arm_m * share(random) * random_direction(random);
       AllFigures one;
       answer_all(

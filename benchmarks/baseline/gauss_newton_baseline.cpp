@@ -55,7 +55,7 @@ class StrictSolver final : public Solver<double> {
 
  private:
   static constexpr int kMaxSteps = 48;
-  static constexpr double kLongestLean_m = 0.2;
+  static constexpr double kMaxLean_m = 0.2;
 
   /// Fills the errors of both levels. Returns the largest error of level 2. [m]
   double measure(std::span<const glm::dvec3> targets, const glm::dvec3& com) {
@@ -71,7 +71,7 @@ class StrictSolver final : public Solver<double> {
         row[0] += 3;
       } else {
         second_worst_m = std::max(second_worst_m, length);
-        second_error_.segment<3>(row[1]) = shortened(off, length, kLongestPull_m);
+        second_error_.segment<3>(row[1]) = shortened(off, length, kMaxPull_m);
         row[1] += 3;
       }
     }
@@ -80,7 +80,7 @@ class StrictSolver final : public Solver<double> {
       off[1] = 0.0;
       const double length = off.norm();
       first_worst_m_ = std::max(first_worst_m_, length);
-      off = shortened(off, length, kLongestLean_m);
+      off = shortened(off, length, kMaxLean_m);
       first_error_[row[0]] = off[0];
       first_error_[row[0] + 1] = off[2];
     }

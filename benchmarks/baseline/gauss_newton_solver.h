@@ -20,7 +20,7 @@
 namespace marey::gauss_newton {
 
 inline constexpr double kGoodEnough_m = 1e-3;
-inline constexpr double kLongestPull_m = 0.3;  // Limit of a point's error in one step.
+inline constexpr double kMaxPull_m = 0.3;  // Limit of a point's error in one step.
 inline constexpr double kPlantedWeight = 5.0;
 
 /// Base of both solvers: a body, its goals, and input and output of postures.
@@ -96,16 +96,16 @@ class DualSolver final : public Solver<T> {
   int solve(std::span<const glm::dvec3> targets_in_world,
             const glm::dvec3& com_in_world) override {
     this->found_ = this->reference_;
-    T least = T(1e9);
+    T minimum = T(1e9);
     int stalled = 0;
     int step = 0;
     for (; step < kMaxSteps; ++step) {
       this->body_.forward(this->found_);
       const T worst = measure(targets_in_world, com_in_world);
       if (worst < T(kGoodEnough_m)) break;
-      stalled = worst > least - T(1e-4) ? stalled + 1 : 0;
+      stalled = worst > minimum - T(1e-4) ? stalled + 1 : 0;
       if (stalled >= 3) break;
-      least = std::min(least, worst);
+      minimum = std::min(minimum, worst);
       linearize();
       normal_.noalias() = jacobian_ * jacobian_.transpose();
       normal_.diagonal().array() += T(kDamping);
@@ -134,7 +134,7 @@ class DualSolver final : public Solver<T> {
       const T length = off.norm();
       worst = std::max(worst, length);
       error_.template segment<3>(row) =
-          weight(k) * Base::shortened(off, length, T(kLongestPull_m));
+          weight(k) * Base::shortened(off, length, T(kMaxPull_m));
     }
     if (!this->with_balance_) return worst;
     const typename Base::Vec3 off = Base::Body::vec(com) - this->body_.centre_of_mass();

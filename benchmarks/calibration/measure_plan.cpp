@@ -146,7 +146,7 @@ void judge(const std::vector<testing::TagView>& views,
 }
 
 struct Box {
-  glm::dvec3 least{1e9};
+  glm::dvec3 minimum{1e9};
   glm::dvec3 greatest{-1e9};
 };
 
@@ -167,9 +167,9 @@ void print_plan(const RenderedTruth& truth,
   PlanOptions options;
   options.tag_size_m = size_m;
   // Five heights of a body, from the lowest tag to the highest.
-  ErrorMapGrid grid{box.least, box.greatest, 0.1, {}};
+  ErrorMapGrid grid{box.minimum, box.greatest, 0.1, {}};
   for (int i = 0; i < 5; ++i) {
-    grid.heights_m.push_back(box.least.y + 0.25 * i * (box.greatest.y - box.least.y));
+    grid.heights_m.push_back(box.minimum.y + 0.25 * i * (box.greatest.y - box.minimum.y));
   }
   const auto plan =
       calib::plan_rig(cameras, nullptr, grid, capture::expected_corner_sigma_px, options);
@@ -218,7 +218,7 @@ void measure(const std::filesystem::path& session) {
     const RigidTransform world_from_tag = pose_of(corners);
     Box& box = boxes[size_mm];
     const glm::dvec3 place = kWorldFromData * world_from_tag.translation;
-    box.least = glm::min(box.least, place);
+    box.minimum = glm::min(box.minimum, place);
     box.greatest = glm::max(box.greatest, place);
     Tally& tally = by_size_mm[size_mm];
     ++tally.in_truth;

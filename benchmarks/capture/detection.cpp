@@ -31,10 +31,10 @@ std::string video_path() {
 /// Frames of the video, copied out of it.
 class KeptFrames {
  public:
-  explicit KeptFrames(int most) {
+  explicit KeptFrames(int maximum) {
     auto source = open_frames(video_path());
     if (!source) return;
-    while (static_cast<int>(pixels_.size()) < most) {
+    while (static_cast<int>(pixels_.size()) < maximum) {
       const auto frame = (*source)->next();
       if (!frame || !*frame) return;
       const GrayFrame& view = **frame;

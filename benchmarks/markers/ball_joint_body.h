@@ -119,7 +119,7 @@ class BallJointBody {
       T angle = turn.norm();
       if (angle < T(1e-12)) continue;
       turn /= angle;
-      angle = std::min(angle, kLargestTurn_rad);
+      angle = std::min(angle, kMaxTurn_rad);
       if (parent_[i] >= 0) {
         turn = world_from_joint_[static_cast<std::size_t>(parent_[i])].transpose() * turn;
       }
@@ -129,7 +129,7 @@ class BallJointBody {
   }
 
  private:
-  static constexpr T kLargestTurn_rad = T(0.5);  // Limit in one step.
+  static constexpr T kMaxTurn_rad = T(0.5);  // Limit in one step.
 
   std::vector<int> parent_;
   std::vector<Vec3> offset_;

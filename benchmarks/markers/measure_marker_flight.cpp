@@ -21,7 +21,7 @@ struct Interval {
 /// When no plate bears anything, between two times when some do.
 std::vector<Interval> unloaded(const recordings::MotTable& forces) {
   constexpr double kMinN = 20.0;
-  constexpr double kShortestS = 0.03;
+  constexpr double kMinFlight_s = 0.03;
   std::vector<std::size_t> vertical;
   for (std::size_t c = 0; c < forces.columns.size(); ++c) {
     const std::string& name = forces.columns[c].name;
@@ -35,7 +35,7 @@ std::vector<Interval> unloaded(const recordings::MotTable& forces) {
     for (const std::size_t c : vertical) sum_N += forces.at(row, c);
     const bool bears = std::abs(sum_N) > kMinN;
     const double time_s = forces.time_s[row];
-    if (bears && !bore && since_s > 0.0 && time_s - since_s > kShortestS) {
+    if (bears && !bore && since_s > 0.0 && time_s - since_s > kMinFlight_s) {
       out.push_back({since_s, time_s});
     }
     if (!bears && bore) since_s = time_s;

@@ -83,8 +83,8 @@ RigModel still_model(std::span<const BoardView> views,
 }
 
 std::vector<double> parts_of_motion(std::span<const TimedPose> poses, double spacing_s) {
-  constexpr double kFastest_m_s = 5.0;
-  constexpr double kFastest_rad_s = 12.0;
+  constexpr double kMaxBoardSpeed_m_s = 5.0;
+  constexpr double kMaxBoardTurn_rad_s = 12.0;
   std::vector<double> starts;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (i == 0) {
@@ -99,8 +99,8 @@ std::vector<double> parts_of_motion(std::span<const TimedPose> poses, double spa
     const double turned_rad =
         glm::length(rotation_vector(glm::conjugate(a.rotation) * b.rotation));
     const bool jumps =
-        glm::distance(a.translation, b.translation) > kFastest_m_s * run_s ||
-        turned_rad > kFastest_rad_s * run_s + 0.3;
+        glm::distance(a.translation, b.translation) > kMaxBoardSpeed_m_s * run_s ||
+        turned_rad > kMaxBoardTurn_rad_s * run_s + 0.3;
     if (jumps || apart_s > 6.0 * spacing_s) starts.push_back(poses[i].time_s);
   }
   return starts;

@@ -11,8 +11,8 @@ namespace {
 
 // Over a longer time, the speed of a hand changes.
 constexpr double kMaxGap_s = 0.25;
-constexpr double kFastest_m_s = 5.0;
-constexpr double kFastest_rad_s = 12.0;
+constexpr double kMaxTargetSpeed_m_s = 5.0;
+constexpr double kMaxTargetTurn_rad_s = 12.0;
 
 }  // namespace
 
@@ -35,7 +35,8 @@ std::optional<Velocity> velocity_at(const RigidTarget& target,
   const Velocity v{
       to_eigen(rotation_vector(b.rotation * glm::conjugate(a.rotation))) / run_s,
       to_eigen(b.translation - a.translation) / run_s};
-  if (v.move_m_s.norm() > kFastest_m_s || v.turn_rad_s.norm() > kFastest_rad_s) {
+  if (v.move_m_s.norm() > kMaxTargetSpeed_m_s ||
+      v.turn_rad_s.norm() > kMaxTargetTurn_rad_s) {
     return std::nullopt;
   }
   return v;

@@ -13,7 +13,7 @@
 namespace marey::calib {
 namespace {
 
-double slowest_hz(std::span<const CameraDetections> waved) {
+double min_hz(std::span<const CameraDetections> waved) {
   double hz = waved.front().rate.hz;
   for (const CameraDetections& camera : waved) hz = std::min(hz, camera.rate.hz);
   return hz;
@@ -26,7 +26,7 @@ int instant_of(std::span<const CameraDetections> waved,
                int frame) {
   if (offsets_s.empty()) return frame;
   const double time_s = frame / waved[camera].rate.hz + offsets_s[camera];
-  return static_cast<int>(std::lround(time_s * slowest_hz(waved)));
+  return static_cast<int>(std::lround(time_s * min_hz(waved)));
 }
 
 /// Returns at most about `max_count` of all, in evenly spaced sections of neighbours.
@@ -63,7 +63,7 @@ std::set<int> chosen_instants(const std::vector<Sighting>& sightings,
     }
     if (instants.size() >= max_count) break;
   }
-  const double hz = slowest_hz(waved);
+  const double hz = min_hz(waved);
   // Clocks are observable through the motion of the wand between neighbouring instants.
   constexpr double kNear_s = 0.2;
   const double apart_s =
@@ -128,7 +128,7 @@ RigModel wand_in_motion(RigModel placed,
                         std::span<const CameraDetections> waved,
                         std::span<const double> offsets_s) {
   constexpr std::size_t kMinPoses = 4;
-  const double hz = slowest_hz(waved);
+  const double hz = min_hz(waved);
   double spacing_s = 1.0;
   for (std::size_t c = 0; c < waved.size(); ++c) {
     spacing_s = std::min(spacing_s, 1.0 / waved[c].rate.hz);

@@ -274,14 +274,15 @@ BodyPlan plan_body(std::span<const Camera> cameras,
   MAREY_ASSERT(options.headings > 0 && options.strides > 0);
   MAREY_ASSERT(!covariance || covariance->cameras == cameras.size());
   BodyPlanner planner(cameras, covariance, body, grid, corner_sigma, options);
-  const glm::dvec2 least{grid.min_in_world.x, grid.min_in_world.z};
-  const glm::dvec2 extent{grid.max_in_world.x - least.x, grid.max_in_world.z - least.y};
+  const glm::dvec2 minimum{grid.min_in_world.x, grid.min_in_world.z};
+  const glm::dvec2 extent{grid.max_in_world.x - minimum.x,
+                          grid.max_in_world.z - minimum.y};
   for (int k = 0; k < options.headings; ++k) {
     const double heading_rad = 2.0 * std::numbers::pi * k / options.headings;
     for (int i = 0; i < options.strides; ++i) {
       const int at = 1 + k * options.strides + i;
       const glm::dvec2 share{mirrored_digits(at, 2), mirrored_digits(at, 3)};
-      planner.walk(heading_rad, least + share * extent);
+      planner.walk(heading_rad, minimum + share * extent);
     }
   }
   BodyPlan out = planner.plan();
@@ -290,7 +291,7 @@ BodyPlan plan_body(std::span<const Camera> cameras,
   const int columns = stands.columns();
   for (int at = 0; at < stands.rows() * columns; ++at) {
     const glm::dvec2 place{at % columns, at / columns};
-    out.stands.push_back(planner.stand(least + options.step_m * place));
+    out.stands.push_back(planner.stand(minimum + options.step_m * place));
   }
   return out;
 }

@@ -18,7 +18,7 @@ constexpr double kPoorDrift = 1e-3;
 constexpr double kSignificant = 3.0;
 // Rolling shutters of webcams take 10 to 35 ms from the first row to the last, also at
 // lower frame rates.
-constexpr double kLongestPicture_s = 0.07;
+constexpr double kMaxReadout_s = 0.07;
 
 /// A sensor finishes its last row before its next image begins.
 void assess_line_delay(FindingList& list, std::size_t c) {
@@ -26,7 +26,7 @@ void assess_line_delay(FindingList& list, std::size_t c) {
   const double sigma_s = clock.line_delay_sigma_s;
   if (!(sigma_s > 0.0) || !(list.report.rate_hz > 0.0)) return;
   const double rows = list.report.rig.cameras[c].intrinsics.height_px;
-  const double longest_s = std::min(kLongestPicture_s, 1.0 / list.report.rate_hz);
+  const double max_s = std::min(kMaxReadout_s, 1.0 / list.report.rate_hz);
   const double delay_s = std::abs(clock.line_delay_s);
   const auto& clocks = list.report.rig.clocks;
   const bool has_offsets = std::any_of(
@@ -37,7 +37,7 @@ void assess_line_delay(FindingList& list, std::size_t c) {
             "movements in all parts of the picture"
           : "set clocks = \"offsets\" under [calibration] in session.toml, or leave out "
             "line_delays: a clock offset looks like a line delay";
-  if ((delay_s - kSignificant * sigma_s) * rows > longest_s) {
+  if ((delay_s - kSignificant * sigma_s) * rows > max_s) {
     list.add(Severity::kPoor,
              "line-delay",
              list.camera(c),
@@ -46,9 +46,9 @@ void assess_line_delay(FindingList& list, std::size_t c) {
                  "under %.0f)",
                  1e6 * clock.line_delay_s,
                  1e3 * rows * delay_s,
-                 1e3 * longest_s),
+                 1e3 * max_s),
              next)
-        .measured(1e3 * rows * delay_s, 1e3 * longest_s, "ms");
+        .measured(1e3 * rows * delay_s, 1e3 * max_s, "ms");
   } else if (clock.line_delay_s < -kSignificant * sigma_s && rows * delay_s > 1e-3) {
     list.add(
         Severity::kFair,

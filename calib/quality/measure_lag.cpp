@@ -110,15 +110,15 @@ std::optional<CameraSlip> slip_of(const std::vector<PassingView>& views) {
   Line all;
   for (const PassingView& view : shared) all.add(view);
   std::optional<CameraSlip> best;
-  double least = all.left();
+  double minimum = all.left();
   Line before;
   for (std::size_t i = 0; i + kMin <= shared.size(); ++i) {
     const Line after = all - before;
     const double left = before.left() + after.left();
     const bool is_few = i < kFew || i + kFew > shared.size();
-    const double most = is_few ? kMaxLeftOfFew : kMaxLeft;
-    if (i >= kMin && left < least && left < most * all.left()) {
-      least = left;
+    const double maximum = is_few ? kMaxLeftOfFew : kMaxLeft;
+    if (i >= kMin && left < minimum && left < maximum * all.left()) {
+      minimum = left;
       best = CameraSlip{shared[i].frame,
                         after.slope() - before.slope(),
                         std::abs(after.slope() - before.slope()) *
@@ -127,9 +127,9 @@ std::optional<CameraSlip> slip_of(const std::vector<PassingView>& views) {
     before.add(shared[i]);
   }
   const double noise =
-      std::max(0.0, least) / (2.0 * static_cast<double>(shared.size()) - 2.0);
+      std::max(0.0, minimum) / (2.0 * static_cast<double>(shared.size()) - 2.0);
   if (!best || std::abs(best->frames) < kMinLag_frames ||
-      all.left() - least < kMinSigmas * kMinSigmas * noise) {
+      all.left() - minimum < kMinSigmas * kMinSigmas * noise) {
     return std::nullopt;
   }
   return best;

@@ -164,8 +164,9 @@ Result<SolvedRig> solve_choosing_clocks(
   if (!*shared || !(**shared).uncertainty) return solved;
   // Clocks do not improve the fit of a wrong board, for example; and more unknowns always
   // fit slightly better.
-  const double most = (clocks_differ ? 1.0 : 0.7) * misfit(shared_rig);
-  const bool is_better = misfit(rig) < most && rig.sightings > 0.7 * shared_rig.sightings;
+  const double maximum = (clocks_differ ? 1.0 : 0.7) * misfit(shared_rig);
+  const bool is_better =
+      misfit(rig) < maximum && rig.sightings > 0.7 * shared_rig.sightings;
   return is_better ? std::move(solved) : solve_shared();
 }
 

@@ -36,10 +36,10 @@ struct ClockFit {
   int lag = 0;  ///< Steps by which b's frames are shifted.
 };
 
-ClockFit best_lag(const Track& a, const Track& b, int most) {
+ClockFit best_lag(const Track& a, const Track& b, int maximum) {
   ClockFit best;
   const Track few = thinned(a);
-  for (int lag = -most; lag <= most; ++lag) {
+  for (int lag = -maximum; lag <= maximum; ++lag) {
     std::vector<RigidTransform> proposals;
     for (const auto& [key, a_from_thing] : few) {
       const auto other = b.find({key.first, key.second - lag});
@@ -75,13 +75,13 @@ std::vector<double> coarse_offsets_s(std::span<const SeenTrack> seen,
       tracks[c][{key.first, static_cast<int>(std::lround(time_s / step_s))}] = pose;
     }
   }
-  const int most = static_cast<int>(std::lround(max_s / step_s));
+  const int maximum = static_cast<int>(std::lround(max_s / step_s));
   std::vector<std::optional<double>> offset_s(count);
   if (count > 0) offset_s[0] = 0.0;
   std::map<std::pair<std::size_t, std::size_t>, ClockFit> fits;
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = a + 1; b < count; ++b) {
-      fits[{a, b}] = best_lag(tracks[a], tracks[b], most);
+      fits[{a, b}] = best_lag(tracks[a], tracks[b], maximum);
     }
   }
   // Best supported link first, as in propagate_poses().

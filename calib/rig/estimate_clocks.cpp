@@ -60,7 +60,7 @@ SeenTags look(std::span<const Camera> cameras,
 }
 
 /// Returns the tags with the most frames shared by two cameras, in descending order.
-std::vector<TagId> max_shared(const SeenTags& seen, int most) {
+std::vector<TagId> max_shared(const SeenTags& seen, int maximum) {
   std::vector<std::pair<std::size_t, TagId>> by_count;
   for (const auto& [id, views] : seen) {
     std::map<int, std::size_t> cameras;
@@ -74,7 +74,7 @@ std::vector<TagId> max_shared(const SeenTags& seen, int most) {
   });
   std::vector<TagId> ids;
   for (const auto& [count, id] : by_count) {
-    if (static_cast<int>(ids.size()) < most) ids.push_back(id);
+    if (static_cast<int>(ids.size()) < maximum) ids.push_back(id);
   }
   return ids;
 }
@@ -84,11 +84,14 @@ using Paths = std::vector<std::map<std::pair<TagId, int>, glm::dvec3>>;
 
 /// Returns the lag, in steps, at which b's tags are nearest to a's, and the number that
 /// agree. Tags at rest are near at any lag: for equal scores the smallest lag is used.
-std::pair<int, int> best_lag(const Paths& paths, std::size_t a, std::size_t b, int most) {
+std::pair<int, int> best_lag(const Paths& paths,
+                             std::size_t a,
+                             std::size_t b,
+                             int maximum) {
   constexpr double kFar_m = 0.2;
   double best = 0.0;
   std::pair<int, int> found{0, 0};
-  for (int i = 0; i <= 2 * most; ++i) {
+  for (int i = 0; i <= 2 * maximum; ++i) {
     const int lag = (i % 2 == 0 ? 1 : -1) * ((i + 1) / 2);  // 0, -1, 1, -2, 2...
     double score = 0.0;
     int count = 0;
@@ -127,7 +130,7 @@ std::vector<double> first_offsets(const SeenTags& seen,
           view.world_from_tag[0].translation;
     }
   }
-  const int most = static_cast<int>(std::lround(max_s / step_s));
+  const int maximum = static_cast<int>(std::lround(max_s / step_s));
   std::vector<std::optional<double>> offset_s(count);
   offset_s[0] = given_s[0];
   while (true) {
@@ -137,7 +140,7 @@ std::vector<double> first_offsets(const SeenTags& seen,
     for (std::size_t a = 0; a < count; ++a) {
       for (std::size_t b = 0; b < count; ++b) {
         if (!offset_s[a] || offset_s[b]) continue;
-        const auto lag = best_lag(paths, a, b, most);
+        const auto lag = best_lag(paths, a, b, maximum);
         if (lag.second <= best.second) continue;
         best = lag;
         from = a;
@@ -160,7 +163,7 @@ std::vector<TimedPose> resolve_ambiguities(std::span<const SeenTag> views,
   std::vector<TimedPose> poses;
   for (const SeenTag& view : views) {
     const double time_s = view.time_s + offsets_s[view.camera];
-    double least = std::numeric_limits<double>::infinity();
+    double minimum = std::numeric_limits<double>::infinity();
     TimedPose best{time_s, {}};
     for (const SeenTag& other : views) {
       const double other_s = other.time_s + offsets_s[other.camera];
@@ -169,13 +172,13 @@ std::vector<TimedPose> resolve_ambiguities(std::span<const SeenTag> views,
         for (const RigidTransform& theirs : other.world_from_tag) {
           const double apart = glm::length(
               rotation_vector(glm::conjugate(mine.rotation) * theirs.rotation));
-          if (apart >= least) continue;
-          least = apart;
+          if (apart >= minimum) continue;
+          minimum = apart;
           best.world_from_target = mine;
         }
       }
     }
-    if (least < 0.5) poses.push_back(best);
+    if (minimum < 0.5) poses.push_back(best);
   }
   std::stable_sort(poses.begin(), poses.end(), [](const auto& a, const auto& b) {
     return a.time_s < b.time_s;

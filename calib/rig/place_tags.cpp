@@ -150,7 +150,7 @@ std::optional<RigidTransform> TagPlacer::best_place(const Place& place) const {
   if (found == seen_.end()) return std::nullopt;
   const double size_m =
       model_.targets[std::get<0>(place)].pieces[std::get<2>(place)].size_m;
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   std::optional<RigidTransform> best;
   for (const SeenPose& seen : found->second) {
     if (!placed_[seen.sighting->camera]) continue;
@@ -162,8 +162,8 @@ std::optional<RigidTransform> TagPlacer::best_place(const Place& place) const {
         if (!placed_[other.sighting->camera]) continue;
         sum += std::min(50.0, misfit_px(*other.sighting, candidate, size_m));
       }
-      if (sum < least) {
-        least = sum;
+      if (sum < minimum) {
+        minimum = sum;
         best = candidate;
       }
     }
@@ -216,7 +216,7 @@ void TagPlacer::place_target(std::size_t t) {
     }
   }
   for (const auto& [instant, views] : by_instant) {
-    double least = std::numeric_limits<double>::infinity();
+    double minimum = std::numeric_limits<double>::infinity();
     for (const SeenPose* proposer : views) {
       const Piece& own = target.pieces[proposer->sighting->piece];
       for (const RigidTransform& camera_from_piece : proposer->camera_from_piece) {
@@ -231,8 +231,8 @@ void TagPlacer::place_target(std::size_t t) {
               misfit_px(
                   *other->sighting, candidate * piece.target_from_piece, piece.size_m));
         }
-        if (sum < least) {
-          least = sum;
+        if (sum < minimum) {
+          minimum = sum;
           target.world_from_target[instant] = candidate;
         }
       }
@@ -346,8 +346,8 @@ std::optional<Intrinsics> estimate_intrinsics_from_tags(
   });
   if (by_size.size() > kMax) by_size.resize(kMax);
   Intrinsics best;
-  double least = std::numeric_limits<double>::infinity();
-  double most = 0.0;
+  double minimum = std::numeric_limits<double>::infinity();
+  double maximum = 0.0;
   const double widest = lens == LensModel::kFisheye ? 1.0 : 3.0;
   for (double focal = 0.3; focal <= widest; focal *= 1.05) {
     Intrinsics k;
@@ -362,13 +362,13 @@ std::optional<Intrinsics> estimate_intrinsics_from_tags(
       const double off_px = placed.empty() ? 5.0 : placed[0].misfit * k.focal_px.x;
       sum += std::min(off_px, 5.0);
     }
-    most = std::max(most, sum);
-    if (sum < least) {
-      least = sum;
+    maximum = std::max(maximum, sum);
+    if (sum < minimum) {
+      minimum = sum;
       best = k;
     }
   }
-  if (most < 1.05 * least) return std::nullopt;
+  if (maximum < 1.05 * minimum) return std::nullopt;
   return best;
 }
 

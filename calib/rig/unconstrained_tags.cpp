@@ -70,7 +70,7 @@ std::optional<RigidTransform> place(std::span<const Camera> cameras,
     corners[static_cast<std::size_t>(i)] = corner_in_tag(i, size_m);
   }
   std::optional<RigidTransform> best;
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   for (const auto& [c, tag] : seen) {
     for (const PlacedPlane& plane :
          place_plane(cameras[c].intrinsics, corners, tag->corners_px)) {
@@ -80,8 +80,8 @@ std::optional<RigidTransform> place(std::span<const Camera> cameras,
       for (const auto& [other, view] : seen) {
         sum += misfit_px(cameras[other], *view, size_m, candidate);
       }
-      if (sum >= least) continue;
-      least = sum;
+      if (sum >= minimum) continue;
+      minimum = sum;
       best = candidate;
     }
   }

@@ -118,8 +118,8 @@ std::optional<FrameRate> fastest(std::span<const CameraTimes> cameras) {
   }
   if (rates_hz.empty()) return std::nullopt;
   std::sort(rates_hz.begin(), rates_hz.end());
-  const double least = rates_hz.back() * (1.0 - kSame);
-  const auto first = std::lower_bound(rates_hz.begin(), rates_hz.end(), least);
+  const double minimum = rates_hz.back() * (1.0 - kSame);
+  const auto first = std::lower_bound(rates_hz.begin(), rates_hz.end(), minimum);
   return FrameRate{first[(rates_hz.end() - first) / 2]};
 }
 

@@ -182,7 +182,7 @@ std::optional<std::int64_t> FrameGrouper::ready_live(Timestamp now) const {
   for (const Lane& lane : lanes_) {
     for (std::size_t i = 0; i < lane.count; ++i) {
       const std::int64_t slot = lane.at(i).slot;
-      if (slot > common && now < time_of(slot) + options_.longest_wait) continue;
+      if (slot > common && now < time_of(slot) + options_.max_wait) continue;
       if (!newest || slot > *newest) newest = slot;
     }
   }
@@ -247,7 +247,7 @@ FrameGroup FrameGrouper::make_group(std::int64_t slot) {
 std::optional<Timestamp> FrameGrouper::deadline() const {
   const std::optional<std::int64_t> oldest = oldest_slot();
   if (!oldest) return std::nullopt;
-  return time_of(*oldest) + options_.longest_wait;
+  return time_of(*oldest) + options_.max_wait;
 }
 
 const GroupingCounts& FrameGrouper::counts(CameraId camera) const {

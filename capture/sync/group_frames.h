@@ -25,7 +25,7 @@ struct ClockModel {
 
 enum class GroupingMode {
   /// Only the newest group is returned. A group waits for a camera at most
-  /// `longest_wait`; frames that arrive later, or were not fetched in time, are dropped
+  /// `max_wait`; frames that arrive later, or were not fetched in time, are dropped
   /// and counted.
   kLive,
   /// Every frame is returned once, in groups that do not depend on the order of arrivals
@@ -34,7 +34,7 @@ enum class GroupingMode {
 };
 
 /// Waiting time of live work for the frames of missing cameras.
-inline constexpr std::chrono::nanoseconds kLongestWait = std::chrono::milliseconds(50);
+inline constexpr std::chrono::nanoseconds kMaxGroupWait = std::chrono::milliseconds(50);
 
 struct GroupFramesOptions {
   GroupingMode mode = GroupingMode::kOffline;
@@ -43,7 +43,7 @@ struct GroupFramesOptions {
   /// nullopt, live only: the time of the first frame offered.
   std::optional<Timestamp> origin = Timestamp{0};
   /// Live: waiting time for missing cameras after a group's instant.
-  std::chrono::nanoseconds longest_wait = kLongestWait;
+  std::chrono::nanoseconds max_wait = kMaxGroupWait;
   /// Live: a camera without a frame for this time is not waited for until its next frame.
   std::chrono::nanoseconds silent_after = std::chrono::milliseconds(500);
   /// Maximum number of frames of one camera that wait for their group.

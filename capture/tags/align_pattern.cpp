@@ -284,12 +284,12 @@ bool Fit::run() {
     return false;
   }
   constexpr int kMaxSteps = 12;
-  constexpr double kLargestDamping = 1e3;
+  constexpr double kMaxDamping = 1e3;
   // The remaining gain is far below the uncertainty; more iterations cost time.
   constexpr double kMinGainShare = 1e-2;
   System system = linearized(state_);
   double damping = 1e-3;
-  for (int step = 0; step < kMaxSteps && damping < kLargestDamping; ++step) {
+  for (int step = 0; step < kMaxSteps && damping < kMaxDamping; ++step) {
     Normal damped = system.normal;
     for (int i = 0; i < kUnknowns; ++i) damped(i, i) *= 1.0 + damping;
     bool solved = false;
@@ -376,13 +376,13 @@ std::optional<Alignment> align_pattern(const GrayFrame& frame,
   const double side_px =
       glm::distance(corners_px[0], corners_px[2]) / std::numbers::sqrt2;
   const double cell_px = side_px / (pattern.cells - 2 * pattern.margin_cells);
-  constexpr double kLargestResidual = 0.25;
+  constexpr double kMaxResidual = 0.25;
   // The blur biases an edge search inward, most if light was clipped.
   constexpr double kBiasPerBlur = 2.0;
   const double max_px =
       std::min(1.5 * cell_px, slack_px + kBiasPerBlur * alignment.blur_px);
   // Written so that NaN is rejected.
-  if (!(alignment.residual <= kLargestResidual)) return std::nullopt;
+  if (!(alignment.residual <= kMaxResidual)) return std::nullopt;
   for (std::size_t i = 0; i < 4; ++i) {
     const double moved_px = glm::distance(alignment.corners_px[i], corners_px[i]);
     if (!(moved_px <= max_px)) return std::nullopt;

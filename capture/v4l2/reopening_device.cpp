@@ -15,7 +15,7 @@ namespace {
 using std::chrono::milliseconds;
 
 /// Limits the wait, so that a loss is detected within a second for any timeout.
-constexpr milliseconds kLongestWait{500};
+constexpr milliseconds kMaxReopenWait{500};
 
 }  // namespace
 
@@ -123,7 +123,7 @@ std::optional<RawFrame> ReopeningDevice::next(milliseconds timeout) {
     if (!device_ && kernel_->now() >= next_attempt_) try_to_open();
     const Timestamp until = device_ ? deadline : std::min(deadline, next_attempt_);
     const auto left = std::clamp(
-        std::chrono::ceil<milliseconds>(until - kernel_->now()), {}, kLongestWait);
+        std::chrono::ceil<milliseconds>(until - kernel_->now()), {}, kMaxReopenWait);
     if (device_) {
       auto frame = device_->next(left);
       if (!frame) {

@@ -61,7 +61,7 @@ std::uint64_t declared_pixels(const std::vector<char>& bytes) {
   // Length and name of the first chunk, then width and height.
   if (size >= 24 && word(0, 4) == 0x89504e47U) return word(16, 4) * word(20, 4);
   if (size < 2 || word(0, 2) != 0xffd8U) return 0;
-  std::uint64_t most = 0;
+  std::uint64_t maximum = 0;
   for (std::size_t at = 2; size - at >= 9 && word(at, 1) == 0xffU;) {
     const std::uint64_t mark = word(at + 1, 1);
     if (mark == 0xffU) {
@@ -71,11 +71,11 @@ std::uint64_t declared_pixels(const std::vector<char>& bytes) {
     // A frame header; excludes the tables 0xc4, 0xc8 and 0xcc.
     const bool is_frame = mark >= 0xc0U && mark <= 0xcfU && mark % 4 != 0;
     if (is_frame || mark == 0xc0U)
-      most = std::max(most, word(at + 5, 2) * word(at + 7, 2));
+      maximum = std::max(maximum, word(at + 5, 2) * word(at + 7, 2));
     if (mark == 0xdaU || word(at + 2, 2) + 2 > size - at) break;
     at += static_cast<std::size_t>(word(at + 2, 2)) + 2;
   }
-  return most;
+  return maximum;
 }
 
 struct DestroyJpeg {

@@ -10,7 +10,7 @@
 namespace marey::live {
 namespace {
 
-constexpr std::size_t kLargestPacket = 65535;
+constexpr std::size_t kMaxReceivedBytes = 65535;
 // Holds a few hundred frames that arrive while the program is busy. The kernel may grant
 // less; frames that do not fit are then lost, which is acceptable.
 constexpr int kBufferBytes = 1 << 20;
@@ -18,7 +18,7 @@ constexpr int kBufferBytes = 1 << 20;
 }  // namespace
 
 UdpListener::UdpListener(UdpSocket socket)
-    : socket_(std::move(socket)), buffer_(kLargestPacket) {}
+    : socket_(std::move(socket)), buffer_(kMaxReceivedBytes) {}
 
 Result<UdpListener> UdpListener::open(const UdpAddress& address) {
   Result<UdpSocket> socket = UdpSocket::at(address);

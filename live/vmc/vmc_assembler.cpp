@@ -10,9 +10,9 @@
 namespace marey::live {
 namespace {
 
-constexpr double kFurthest = 10e3;  // [m]
+constexpr double kMaxPosition_m = 10e3;  // [m]
 // Senders round; a shorter quaternion is not a rotation.
-constexpr double kShortestQuaternion = 1e-3;
+constexpr double kMinQuaternionNorm = 1e-3;
 constexpr int kIncompleteUntilAccepted = 5;
 
 /// Reads position and rotation, normalised; nullopt if they are missing or invalid.
@@ -26,7 +26,7 @@ std::optional<UnityTransform> read_transform(OscArguments& arguments) {
   const auto [x, y, z, qx, qy, qz, qw] = numbers;
   const glm::dvec3 position(x, y, z);
   const double length = std::hypot(std::hypot(qx, qy), std::hypot(qz, qw));
-  if (!(glm::length(position) <= kFurthest) || !(length >= kShortestQuaternion) ||
+  if (!(glm::length(position) <= kMaxPosition_m) || !(length >= kMinQuaternionNorm) ||
       !std::isfinite(length)) {
     return std::nullopt;
   }

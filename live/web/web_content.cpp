@@ -5,10 +5,10 @@
 namespace marey::live {
 
 bool is_web_path(std::string_view path) {
-  constexpr std::size_t kLongest = 200;
+  constexpr std::size_t kMaxPathLength = 200;
   constexpr std::string_view kAllowed =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-/";
-  return !path.empty() && path.front() == '/' && path.size() <= kLongest &&
+  return !path.empty() && path.front() == '/' && path.size() <= kMaxPathLength &&
          path.find("..") == std::string_view::npos &&
          path.find_first_not_of(kAllowed) == std::string_view::npos;
 }

@@ -138,7 +138,7 @@ bool BundleFrameSolver::settle_limb(std::size_t limb, BundleFrame& frame) const 
   const HumanLimb& bones = human_limbs()[limb];
   const BodyModel& model = bundle_->model;
   Posture best = frame.posture;
-  double least = descend(frame, best) - kGain;
+  double minimum = descend(frame, best) - kGain;
   bool changed = false;
   const auto try_start = [&](const FoundSegments& found) {
     const Posture start =
@@ -146,8 +146,8 @@ bool BundleFrameSolver::settle_limb(std::size_t limb, BundleFrame& frame) const 
     Posture candidate = limb_ ? frame.posture : start;
     if (limb_) copy_limb(limb, start, candidate);
     const double cost = descend(frame, candidate);
-    if (cost >= least) return;
-    least = cost;
+    if (cost >= minimum) return;
+    minimum = cost;
     best = candidate;
     changed = true;
   };
@@ -178,14 +178,14 @@ void BundleFrameSolver::settle_extremity(std::size_t limb, BundleFrame& frame) c
   const HumanBone end = human_limbs()[limb].end;
   const std::array of_end{end};
   Posture best = frame.posture;
-  double least = descend(frame, best);
+  double minimum = descend(frame, best);
   for (const Start& start : candidate_starts(frame, of_end)) {
     Posture candidate = frame.posture;
     candidate.set_rotation(kLimbParameters[limb].extremity,
                            start.world_from_bone.rotation);
     const double cost = descend(frame, candidate);
-    if (cost >= least) continue;
-    least = cost;
+    if (cost >= minimum) continue;
+    minimum = cost;
     best = candidate;
   }
   frame.posture = best;

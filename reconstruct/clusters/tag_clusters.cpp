@@ -73,12 +73,12 @@ TagCluster grow(HumanBone segment,
                 const std::vector<TagPoses>& frames) {
   // The tag that is seen most defines the cluster's frame.
   std::size_t anchor = members.front();
-  std::ptrdiff_t most = -1;
+  std::ptrdiff_t maximum = -1;
   for (const std::size_t tag : members) {
     const auto seen = std::count_if(
         frames.begin(), frames.end(), [&](const TagPoses& f) { return f.contains(tag); });
-    if (seen > most) {
-      most = seen;
+    if (seen > maximum) {
+      maximum = seen;
       anchor = tag;
     }
   }

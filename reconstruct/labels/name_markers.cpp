@@ -290,15 +290,15 @@ MarkerNames name_markers(std::span<const std::string> labels) {
   MarkerNames best;
   best.landmarks.assign(labels.size(), nullptr);
   best.is_computed.assign(labels.size(), false);
-  std::size_t most = 0;
+  std::size_t maximum = 0;
   std::size_t with_names = 0;
   for (const Subject& subject : subjects_of(labels)) {
     const MarkerNames names = name_subject(subject.labels);
     const std::size_t named = count_named(names.landmarks);
     if (named >= kMin) ++with_names;
-    const bool is_first_known = best.set.empty() && most == 0 && !names.set.empty();
-    if (named <= most && !is_first_known) continue;
-    most = named;
+    const bool is_first_known = best.set.empty() && maximum == 0 && !names.set.empty();
+    if (named <= maximum && !is_first_known) continue;
+    maximum = named;
     best.set = names.set;
     best.prefix = subject.prefix + names.prefix;
     best.landmarks.assign(labels.size(), nullptr);
@@ -317,7 +317,7 @@ MarkerNames name_markers(std::span<const std::string> labels) {
     best.notes.push_back("the labels belong to several subjects: only those of \"" +
                          best.prefix + "\" are used");
   }
-  if (most == 0 && !best.set.empty()) {
+  if (maximum == 0 && !best.set.empty()) {
     best.notes.push_back("these are the labels of " + best.set +
                          ", which are computed points, not markers on the body");
   }

@@ -353,7 +353,7 @@ void find_scales(std::span<const MarkerTracks> trials,
   // people.
   const double other_unit = std::log(1.8);
   std::size_t best = 0;
-  std::pair<int, double> least{std::numeric_limits<int>::max(), 0.0};
+  std::pair<int, double> minimum{std::numeric_limits<int>::max(), 0.0};
   for (std::size_t t = 0; t < trials.size(); ++t) {
     int disagreeing = 0;
     for (std::size_t other = 0; other < trials.size(); ++other) {
@@ -364,8 +364,8 @@ void find_scales(std::span<const MarkerTracks> trials,
     const double odd = stature && stature->stature_m > 0.0
                            ? std::abs(std::log(stature->stature_m / kStature_m))
                            : std::numeric_limits<double>::infinity();
-    if (std::pair(disagreeing, odd) >= least) continue;
-    least = {disagreeing, odd};
+    if (std::pair(disagreeing, odd) >= minimum) continue;
+    minimum = {disagreeing, odd};
     best = t;
   }
   for (std::size_t t = 0; t < trials.size(); ++t) {

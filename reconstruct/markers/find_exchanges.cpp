@@ -207,12 +207,12 @@ std::vector<Hypothesis> hypotheses(const MarkersFit& fit,
 
 /// Returns some frames of every trial, enough to distinguish exchanges.
 std::vector<MarkerTracks> thinned(std::span<const MarkerTracks> trials) {
-  const std::size_t most = std::max<std::size_t>(4, kThinnedFrames / trials.size());
+  const std::size_t maximum = std::max<std::size_t>(4, kThinnedFrames / trials.size());
   std::vector<MarkerTracks> out;
   for (const MarkerTracks& tracks : trials) {
     MarkerTracks few;
     few.labels = tracks.labels;
-    const std::size_t step = 1 + tracks.frames() / most;
+    const std::size_t step = 1 + tracks.frames() / maximum;
     few.rate.hz = tracks.rate.hz / static_cast<double>(step);
     for (std::size_t f = 0; f < tracks.frames(); f += step) {
       for (std::size_t m = 0; m < tracks.markers(); ++m) {
@@ -254,13 +254,13 @@ std::optional<LabelExchange> find_exchange(const MarkerSubject& subject,
   if (!as_called) return std::nullopt;
   const double before = label_cost(*as_called, labels);
   std::optional<LabelExchange> best;
-  double least = std::min(kMinImprovement * before, before - kBetterBy);
+  double minimum = std::min(kMinImprovement * before, before - kBetterBy);
   for (const Hypothesis& hypothesis : candidates) {
     const auto other = fit_markers(subject, few, hypothesis.labels);
     if (!other) continue;
     const double cost = label_cost(*other, hypothesis.labels);
-    if (cost >= least) continue;
-    least = cost;
+    if (cost >= minimum) continue;
+    minimum = cost;
     best = LabelExchange{hypothesis.exchanged, hypothesis.limbs, before, cost};
   }
   return best;

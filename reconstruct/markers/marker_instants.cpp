@@ -84,19 +84,19 @@ void pose_snapshots(const MarkerModel& model,
                     const ModelLabels& labels,
                     std::vector<Snapshot>& snapshots) {
   // Trials can have different markers: those inside of knees are taken off for walking.
-  std::vector<std::size_t> most;
+  std::vector<std::size_t> maximum;
   for (const Snapshot& snapshot : snapshots) {
-    most.resize(std::max(most.size(), snapshot.trial + 1));
-    most[snapshot.trial] =
-        std::max(most[snapshot.trial], seen_in(snapshot, labels).size());
+    maximum.resize(std::max(maximum.size(), snapshot.trial + 1));
+    maximum[snapshot.trial] =
+        std::max(maximum[snapshot.trial], seen_in(snapshot, labels).size());
   }
   MarkerPoseRelocalizer finder(model);
   const Snapshot* before = nullptr;
   for (Snapshot& snapshot : snapshots) {
     const std::vector<SeenMarker> seen = seen_in(snapshot, labels);
-    const bool enough =
-        seen.size() >= 6 && static_cast<double>(seen.size()) >=
-                                kFullEnough * static_cast<double>(most[snapshot.trial]);
+    const bool enough = seen.size() >= 6 &&
+                        static_cast<double>(seen.size()) >=
+                            kFullEnough * static_cast<double>(maximum[snapshot.trial]);
     if (!enough) {
       snapshot.solved = false;
       continue;

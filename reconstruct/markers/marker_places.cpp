@@ -50,10 +50,10 @@ double measure_strays(std::span<const Snapshot> snapshots,
   }
   for (std::size_t m = 0; m < model.markers.size(); ++m) {
     std::sort(squares[m].begin(), squares[m].end());
-    const std::size_t most = squares[m].size() - squares[m].size() / 20;
+    const std::size_t maximum = squares[m].size() - squares[m].size() / 20;
     double own = 0.0;
-    for (std::size_t i = 0; i < most; ++i) own += squares[m][i];
-    const double samples = static_cast<double>(most);
+    for (std::size_t i = 0; i < maximum; ++i) own += squares[m][i];
+    const double samples = static_cast<double>(maximum);
     const double usual = 3.0 * kUsualStray_m * kUsualStray_m;
     const double variance =
         (own + kUsualSamples * usual) / (3.0 * (samples + kUsualSamples));

@@ -69,17 +69,17 @@ class Batch {
 bool Batch::start() {
   const auto first_seconds = static_cast<std::size_t>(kStart_s * tracks_->rate.hz) + 1;
   std::size_t best = 0;
-  std::size_t most = 0;
+  std::size_t maximum = 0;
   for (std::size_t f = 0; f < tracks_->frames(); ++f) {
     // If markers appear late, the search extends to the first frame with enough of them.
-    if (f >= first_seconds && most >= 6) break;
+    if (f >= first_seconds && maximum >= 6) break;
     collect(frame_of(*tracks_, f), columns_, seen_);
-    if (seen_.size() > most) {
-      most = seen_.size();
+    if (seen_.size() > maximum) {
+      maximum = seen_.size();
       best = f;
     }
   }
-  if (most < 6) return false;
+  if (maximum < 6) return false;
   collect(frame_of(*tracks_, best), columns_, seen_);
   filter_.start(MarkerPoseRelocalizer(model_).find(seen_).posture);
   return true;
@@ -173,9 +173,9 @@ void Batch::solve(const Progress& progress, SolvedMarkers& out) {
 
 /// Marks short intervals without markers of a bone's own, between frames with some, as
 /// repaired.
-void bridge(double longest_repair_s, EstimatedMotion& estimate) {
+void bridge(double max_repair_s, EstimatedMotion& estimate) {
   const auto longest =
-      static_cast<std::size_t>(std::lround(longest_repair_s * estimate.motion.rate.hz));
+      static_cast<std::size_t>(std::lround(max_repair_s * estimate.motion.rate.hz));
   for (std::size_t b = 0; b < kHumanBoneCount; ++b) {
     for (std::size_t f = 0; f < estimate.uncertainty.size();) {
       std::size_t end = f;
@@ -214,7 +214,7 @@ std::optional<SolvedMarkers> solve_markers(const Body& body,
   out.frame_rms_m.resize(frames);
   out.modelled_in_world.resize(frames * body.markers.size());
   batch.solve(progress, out);
-  bridge(options.longest_repair_s, out.estimate);
+  bridge(options.max_repair_s, out.estimate);
 
   double sum = 0.0;
   int count = 0;

@@ -35,7 +35,7 @@ struct SolvedMarkers {
 
 struct SolveMarkersOptions {
   /// A segment without markers for longer than this is inferred, not repaired. [s]
-  double longest_repair_s = 1.0;
+  double max_repair_s = 1.0;
 };
 
 /// Fits the normalized skeleton of a known body to labelled markers, every frame of a

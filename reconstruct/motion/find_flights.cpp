@@ -127,7 +127,7 @@ std::vector<Flight> find_flights(const Motion& motion,
   std::size_t end = 0;
   for (std::size_t first = 0; first < a.size(); first = end + 1) {
     for (end = first; end < a.size() && a[end] < -kFalling * kGravity;) ++end;
-    if (static_cast<double>(end - first) < options.shortest_s * rate_hz) continue;
+    if (static_cast<double>(end - first) < options.min_flight_s * rate_hz) continue;
     // Intervals next to poses without an acceleration can have begun earlier, or end
     // later.
     if (first <= reach || end + reach >= a.size() || end == first) continue;

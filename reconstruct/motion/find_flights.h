@@ -20,7 +20,7 @@ struct Flight {
 };
 
 struct FindFlightsOptions {
-  double shortest_s = 0.05;
+  double min_flight_s = 0.05;
   /// Accelerations are those of parabolas fitted over this duration, and over at least
   /// five poses.
   double smoothing_s = 0.05;

@@ -46,7 +46,7 @@ ClusterPoses medoid_poses(std::span<const ClusterPoses> frames) {
   }
   ClusterPoses out;
   for (const auto& [bone, poses] : by_bone) {
-    double least = std::numeric_limits<double>::infinity();
+    double minimum = std::numeric_limits<double>::infinity();
     for (const RigidTransform& candidate : poses) {
       double sum = 0.0;
       for (const RigidTransform& other : poses) {
@@ -54,8 +54,8 @@ ClusterPoses medoid_poses(std::span<const ClusterPoses> frames) {
                glm::length(
                    rotation_vector(glm::conjugate(candidate.rotation) * other.rotation));
       }
-      if (sum < least) {
-        least = sum;
+      if (sum < minimum) {
+        minimum = sum;
         out[bone] = candidate;
       }
     }

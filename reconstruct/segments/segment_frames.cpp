@@ -152,7 +152,7 @@ class FrameFinder {
   /// Movement hardly determines the position of a knee or elbow along its hinge: there it
   /// comes from the tags, which face away from the bones.
   void slide_along_hinge(std::size_t limb) {
-    constexpr double kFurthest_m = 0.15;
+    constexpr double kMaxDistance_m = 0.15;
     constexpr double kStep_m = 0.005;
     // Weight of a slide in the cost: a metre of slide counts like this distance off the
     // axes.
@@ -167,8 +167,9 @@ class FrameFinder {
     const glm::dvec3 hinge_in_upper = glm::normalize(in_upper);
     const glm::dvec3 hinge_in_lower = glm::normalize(in_lower);
     double best_m = 0.0;
-    double least = std::numeric_limits<double>::infinity();
-    for (double slide_m = -kFurthest_m; slide_m <= kFurthest_m; slide_m += kStep_m) {
+    double minimum = std::numeric_limits<double>::infinity();
+    for (double slide_m = -kMaxDistance_m; slide_m <= kMaxDistance_m;
+         slide_m += kStep_m) {
       const glm::dvec3 upper =
           glm::normalize(c.mid_in_upper + slide_m * hinge_in_upper - c.root_in_upper);
       const glm::dvec3 lower = glm::conjugate(standing_.at(bones.lower).rotation) *
@@ -177,8 +178,8 @@ class FrameFinder {
           off_axis_m2(bones.upper, c.root_in_upper, upper) +
           off_axis_m2(bones.lower, c.mid_in_lower + slide_m * hinge_in_lower, lower) +
           kInertia * kInertia * slide_m * slide_m;
-      if (off_m2 >= least) continue;
-      least = off_m2;
+      if (off_m2 >= minimum) continue;
+      minimum = off_m2;
       best_m = slide_m;
     }
     c.mid_in_upper += best_m * hinge_in_upper;

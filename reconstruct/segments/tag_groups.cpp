@@ -47,16 +47,16 @@ std::optional<double> turn_between(std::size_t a,
   }
   if (turns.size() < kMinTogether) return std::nullopt;
   const std::size_t step = 1 + turns.size() / kMaxTogether;
-  std::optional<double> least;
+  std::optional<double> minimum;
   for (std::size_t i = 0; i < turns.size(); i += step) {
     std::vector<double> angles;
     for (std::size_t j = 0; j < turns.size(); j += step) {
       angles.push_back(glm::length(rotation_vector(glm::conjugate(turns[i]) * turns[j])));
     }
     const double within = quantile(std::move(angles), 0.9);
-    if (!least || within < *least) least = within;
+    if (!minimum || within < *minimum) minimum = within;
   }
-  return least;
+  return minimum;
 }
 
 class Grouping {
@@ -97,26 +97,26 @@ class Grouping {
 
   /// Returns the smallest turn between two groups' tags; nullopt if none are compared.
   std::optional<double> min_turn(const Group& a, const Group& b) {
-    std::optional<double> least;
+    std::optional<double> minimum;
     for (const std::size_t i : a) {
       for (const std::size_t j : b) {
         const auto one = turn(i, j);
-        if (one && (!least || *one < *least)) least = one;
+        if (one && (!minimum || *one < *minimum)) minimum = one;
       }
     }
-    return least;
+    return minimum;
   }
 
   /// Returns the largest turn between two groups' tags; nullopt if none are compared.
   std::optional<double> max_turn(const Group& a, const Group& b) {
-    std::optional<double> most;
+    std::optional<double> maximum;
     for (const std::size_t i : a) {
       for (const std::size_t j : b) {
         const auto one = turn(i, j);
-        if (one && (!most || *one > *most)) most = one;
+        if (one && (!maximum || *one > *maximum)) maximum = one;
       }
     }
-    return most;
+    return maximum;
   }
 
   /// Splits the tags of one segment into parts that turn relative to each other.
@@ -142,13 +142,13 @@ class Grouping {
   /// Joins parts of segments with the groups that they move with, smallest turn first.
   void join_loose() {
     for (;;) {
-      double least = kMovesAsOne_rad;
+      double minimum = kMovesAsOne_rad;
       std::pair<std::size_t, std::size_t> best{0, 0};
       for (std::size_t i = 0; i < groups_.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
           const auto between = joined_turn(i, j);
-          if (!between || *between >= least) continue;
-          least = *between;
+          if (!between || *between >= minimum) continue;
+          minimum = *between;
           best = {j, i};
         }
       }

@@ -33,8 +33,8 @@ constexpr double kElsewhere_m = 0.04;
 // People's left and right bones differ by millimetres. [m]
 constexpr double kSidesDiffer_m = 0.03;
 // Ratio to an average person's length at this stature: five standard deviations.
-constexpr double kShortest = 0.7;
-constexpr double kLongest = 1.35;
+constexpr double kMinRatio = 0.7;
+constexpr double kMaxRatio = 1.35;
 
 // Largest sigma of hips, knees and elbows that are usable for a motion, per coordinate.
 // [m]
@@ -227,7 +227,7 @@ void assess_lengths(const SubjectBundle& bundle, std::vector<Finding>& out) {
                              "record the range of motion again, bending both sides far, "
                              "in view of at least two cameras"));
     }
-    if (ratio < kShortest || ratio > kLongest) {
+    if (ratio < kMinRatio || ratio > kMaxRatio) {
       out.push_back(doubtful("segment " + in_quotes(name(bone)) + " is " +
                                  millimetres(length(left)) + " long, where " +
                                  millimetres(bundle.usual[index(left)]) +

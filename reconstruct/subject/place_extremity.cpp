@@ -75,13 +75,13 @@ std::vector<RigidTransform> candidates(std::size_t limb,
 void add_modes(std::vector<RigidTransform> left, std::vector<RigidTransform>& modes) {
   while (!left.empty() && modes.size() < kMaxHypotheses) {
     std::size_t best = 0;
-    std::ptrdiff_t most = -1;
+    std::ptrdiff_t maximum = -1;
     for (std::size_t i = 0; i < left.size(); ++i) {
       const auto near = std::count_if(left.begin(), left.end(), [&](const auto& other) {
         return apart(left[i], other) < kOneHypothesis;
       });
-      if (near <= most) continue;
-      most = near;
+      if (near <= maximum) continue;
+      maximum = near;
       best = i;
     }
     const RigidTransform mode = left[best];

@@ -42,13 +42,13 @@ std::vector<TagCluster> clusters_of(const BodyModel& model) {
 
 /// Returns the largest rotation between blocks of two postures. [rad]
 double turn_between(const Posture& a, const Posture& b) {
-  double most = 0.0;
+  double maximum = 0.0;
   for (const PoseParameter parameter : kAllPoseParameters) {
     if (!is_rotation(parameter)) continue;
     const glm::dquat turn = glm::conjugate(a.rotation(parameter)) * b.rotation(parameter);
-    most = std::max(most, glm::length(rotation_vector(turn)));
+    maximum = std::max(maximum, glm::length(rotation_vector(turn)));
   }
-  return most;
+  return maximum;
 }
 
 }  // namespace
@@ -161,7 +161,7 @@ void FrameSolver::retry_limbs(std::span<const TagSighting> frame,
       worst_px = std::max(worst_px, misfit_px(s, posture));
     }
     if (worst_px < kMaxMisfit_px) continue;
-    double least = refine(frame, predicted, posture);
+    double minimum = refine(frame, predicted, posture);
     const Posture start = posture;
     for (const TagSighting* s : of_limb) {
       for (const RigidTransform& world_from_tag : planar_candidates(
@@ -171,8 +171,8 @@ void FrameSolver::retry_limbs(std::span<const TagSighting> frame,
         Posture candidate =
             posture_from_segments(segments, model_->lengths, model_->body, start);
         const double cost = refine(frame, predicted, candidate);
-        if (cost >= least) continue;
-        least = cost;
+        if (cost >= minimum) continue;
+        minimum = cost;
         posture = candidate;
       }
     }

@@ -31,15 +31,15 @@ double PlanarPoseAmbiguity::refine(const ChainEnd& end,
   const int column = column_of(end.parameter);
   const double information = 1.0 / (kTurnPerFrame_rad * kTurnPerFrame_rad);
   const Eigen::Quaterniond held(before.w, before.x, before.y, before.z);
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   Posture at = posture;
   for (int i = 0; i < kSteps; ++i) {
     const PostureEquations& all = solver_.evaluate(own_, inputs, at);
     const Eigen::Vector3d off = log_of(quaternion(at, end.parameter) * held.conjugate());
     const double cost = all.cost + 0.5 * information * off.squaredNorm();
-    if (!(cost < least)) break;
-    const bool done = cost > 0.999 * least;
-    least = cost;
+    if (!(cost < minimum)) break;
+    const bool done = cost > 0.999 * minimum;
+    minimum = cost;
     posture = at;
     if (done) break;
     const Eigen::Matrix3d turned = inverse_left_jacobian(off);
@@ -52,7 +52,7 @@ double PlanarPoseAmbiguity::refine(const ChainEnd& end,
     step.segment<3>(column) = -hessian.llt().solve(gradient);
     move(at, step);
   }
-  return least;
+  return minimum;
 }
 
 bool PlanarPoseAmbiguity::reconsider(const ChainEnd& end,
@@ -73,15 +73,15 @@ bool PlanarPoseAmbiguity::reconsider(const ChainEnd& end,
   own.prior = nullptr;
   const glm::dquat was = posture.rotation(end.parameter);
   Posture best = posture;
-  double least = refine(end, own, before, best);
+  double minimum = refine(end, own, before, best);
   for (const RigidTransform& world_from_tag : *poses) {
     Posture other = posture;
     other.set_rotation(end.parameter,
                        glm::normalize(world_from_tag.rotation *
                                       glm::conjugate(tag.bone_from_tag.rotation)));
     const double cost = refine(end, own, before, other);
-    if (!(cost < least)) continue;
-    least = cost;
+    if (!(cost < minimum)) continue;
+    minimum = cost;
     best = other;
   }
   const glm::dquat turn = glm::conjugate(was) * best.rotation(end.parameter);

@@ -79,11 +79,11 @@ double squares_of(std::span<const RigidPointView> views, const RigidTransform& p
 
 TagPoseRelocalizer::TagPoseRelocalizer(const TagModel& model)
     : model_(&model), solver_(model) {
-  const std::size_t most = model.tags.size() * model.cameras.size();
-  views_.reserve(4 * most);
-  starts_.reserve(2 * most);
-  fits_.reserve(most);
-  own_.reserve(most);
+  const std::size_t maximum = model.tags.size() * model.cameras.size();
+  views_.reserve(4 * maximum);
+  starts_.reserve(2 * maximum);
+  fits_.reserve(maximum);
+  own_.reserve(maximum);
 }
 
 std::optional<RigidTransform> TagPoseRelocalizer::locate_bone(
@@ -183,7 +183,7 @@ bool TagPoseRelocalizer::retry_limb(std::size_t limb,
   quick.iterations = 8;
   locate(own_);
   const FoundSegments found = found_;
-  double least = solver_.solve(own_, own, posture, quick);
+  double minimum = solver_.solve(own_, own, posture, quick);
   bool changed = false;
   std::size_t tried = 0;
   for (const SeenTag& one : own_) {
@@ -201,8 +201,8 @@ bool TagPoseRelocalizer::retry_limb(std::size_t limb,
                 posture_from_segments(found_, model_->lengths, model_->body, start),
                 candidate);
       const double cost = solver_.solve(own_, own, candidate, quick);
-      if (!(cost < kClearly * least)) continue;
-      least = cost;
+      if (!(cost < kClearly * minimum)) continue;
+      minimum = cost;
       posture = candidate;
       changed = true;
     }

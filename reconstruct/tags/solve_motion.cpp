@@ -94,7 +94,7 @@ std::vector<bool> seen_frames(const BodyModel& model,
 std::vector<Source> sources_of(const BodyModel& model,
                                const Sightings& sightings,
                                HumanBone bone,
-                               int longest_repair,
+                               int max_repair,
                                std::vector<Gap>& gaps) {
   const std::vector<bool> seen = seen_frames(model, sightings, bone);
   std::vector<Source> sources(sightings.frames.size(), Source::kInferred);
@@ -104,7 +104,7 @@ std::vector<Source> sources_of(const BodyModel& model,
     Source source = Source::kMeasured;
     if (!seen[f]) {
       const bool bridged =
-          f > 0 && end < seen.size() && static_cast<int>(end - f) <= longest_repair;
+          f > 0 && end < seen.size() && static_cast<int>(end - f) <= max_repair;
       source = bridged ? Source::kRepaired : Source::kInferred;
       gaps.push_back({bone,
                       sightings.first_frame + static_cast<int>(f),
@@ -204,7 +204,7 @@ void fill_uncertainties(const Body& body,
                         SolvedTrial& trial) {
   const std::vector<BoneSigmas>& sigmas = windows.sigmas();
   const int longest =
-      static_cast<int>(std::lround(options.longest_repair_s * sightings.rate.hz));
+      static_cast<int>(std::lround(options.max_repair_s * sightings.rate.hz));
   const double clock_s = common_clock_sigma_s(windows);
   const std::vector<BoneSigmas> speeds = bone_speeds(trial.estimate.motion);
   std::array<std::vector<Source>, kHumanBoneCount> sources;

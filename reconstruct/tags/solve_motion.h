@@ -23,7 +23,7 @@ struct SolveMotionOptions {
   int window_frames = 90;
   int overlap_frames = 30;
   /// A segment unseen for longer than this is inferred, not repaired. [s]
-  double longest_repair_s = 1.0;
+  double max_repair_s = 1.0;
   /// Standard deviation of points measured by the cameras, per coordinate, due to their
   /// calibration. [m] The cameras' common error is not visible in the residuals of their
   /// tags.
@@ -77,7 +77,7 @@ struct SolvedTrial {
   std::vector<Gap> gaps;             ///< By segment, then frame. Tagged segments only.
   double rms_px = 0.0;
   double median_px = 0.0;
-  /// Frames whose hips or chest were seen, or bridged within `longest_repair_s`.
+  /// Frames whose hips or chest were seen, or bridged within `max_repair_s`.
   int frames_solved = 0;
 };
 

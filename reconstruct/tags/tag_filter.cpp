@@ -29,7 +29,7 @@ constexpr double kSearchInterval_s = 0.15;
 constexpr double kUnknownSpeed_m_s = 0.5;
 // After a longer time without a picture speeds are unknown; the prediction covers only
 // this time.
-constexpr double kLongestStep_s = 2.0;
+constexpr double kMaxFilterStep_s = 2.0;
 
 }  // namespace
 
@@ -73,7 +73,7 @@ void TagFilter::restart(const Posture& posture) {
 
 /// Predicts in whole steps as near to the nominal frame's duration as possible.
 void TagFilter::predict(const Frame& frame) {
-  const double span_s = std::min(frame.since_s, kLongestStep_s);
+  const double span_s = std::min(frame.since_s, kMaxFilterStep_s);
   const auto steps = std::max(1L, std::lround(span_s * nominal_.hz));
   const double hz = static_cast<double>(steps) / span_s;
   if (hz != process_.rate().hz) process_.change_rate(FrameRate{hz}, filtered_);

@@ -116,8 +116,8 @@ void BodyTracker::Inside::update_report(double since_s) {
   for (const HumanBone bone : human_bones()) {
     if (is_trunk(bone)) trunk_s = std::min(trunk_s, unseen_s[index(bone)]);
   }
-  const bool lost = trunk_s > options.longest_repair_s ||
-                    filter.unexplained_s() > options.longest_repair_s;
+  const bool lost =
+      trunk_s > options.max_repair_s || filter.unexplained_s() > options.max_repair_s;
   report.state = lost ? TrackState::kLost : TrackState::kTracked;
   if (lost) filter.relocalize();
 }
@@ -129,7 +129,7 @@ void BodyTracker::Inside::fill_uncertainty(
   uncertainty.resize(kHumanBoneCount);
   for (std::size_t b = 0; b < kHumanBoneCount; ++b) {
     Source source = Source::kInferred;
-    if (unseen_s[b] <= options.longest_repair_s) source = Source::kRepaired;
+    if (unseen_s[b] <= options.max_repair_s) source = Source::kRepaired;
     if (unseen_s[b] == 0.0) source = Source::kMeasured;
     if (report.state == TrackState::kLost) source = Source::kInferred;
     const double sigma_m = std::hypot(sigmas[b], options.camera_sigma_m);

@@ -28,7 +28,7 @@ enum class TrackState {
   kWaiting,  ///< The body is not found yet.
   kTracked,
   /// Hips and chest have not been seen, or no posture has explained the sightings, for
-  /// longer than `longest_repair_s`: the pose is extrapolated.
+  /// longer than `max_repair_s`: the pose is extrapolated.
   kLost,
 };
 
@@ -45,7 +45,7 @@ struct TrackReport {
 struct TrackBodyOptions {
   /// A segment unseen for longer than this is inferred, not repaired. If hips and chest
   /// are unseen for longer, the body is lost. [s]
-  double longest_repair_s = 1.0;
+  double max_repair_s = 1.0;
   /// Standard deviation of points measured by the cameras, per coordinate, due to their
   /// calibration. [m]
   double camera_sigma_m = 0.0;

@@ -30,9 +30,9 @@ constexpr double kFarOff_m = 0.025;
 // Lower limits for a short run between two jumps, which is suspect already.
 constexpr double kOff = 1.5;
 constexpr double kOff_m = 0.01;
-constexpr double kLongestLeap_s = 1.0;
+constexpr double kMaxLeap_s = 1.0;
 // From one frame to the next: nothing on a body is faster.
-constexpr double kFastest_m_per_s = 12.0;
+constexpr double kMaxSpeed_m_per_s = 12.0;
 constexpr double kStep_m = 0.015;
 constexpr double kApart_m_per_s = 3.0;  // In addition to its companions' speed.
 
@@ -102,13 +102,13 @@ class TrackChecker {
   }
 
   void drop_frozen() {
-    const auto least = std::max(
+    const auto minimum = std::max(
         kMinFrozen, static_cast<std::size_t>(std::lround(kFrozen_s * tracks().rate.hz)));
     for (std::size_t m = 0; m < tracks().markers(); ++m) {
       for (std::size_t f = 0; f + 1 < tracks().frames(); ++f) {
         const std::size_t first = f;
         while (f + 1 < tracks().frames() && stands(m, f)) ++f;
-        if (f - first + 1 < least) continue;
+        if (f - first + 1 < minimum) continue;
         const double moved_m = others_moved_m(m, first, f);
         if (moved_m < kMovedOn_m) continue;
         // The first of them was still seen.
@@ -185,7 +185,7 @@ class TrackChecker {
     const auto& now = tracks().at(frame, marker);
     const auto& next = tracks().at(frame + 1, marker);
     const glm::dvec3 step = next->p_in_world - now->p_in_world;
-    const double max_m = kStep_m + kFastest_m_per_s / tracks().rate.hz;
+    const double max_m = kStep_m + kMaxSpeed_m_per_s / tracks().rate.hz;
     glm::dvec3 carried(0.0);
     int companions = 0;
     for (const std::size_t other : distances_->companions(marker)) {
@@ -286,7 +286,7 @@ class TrackChecker {
       if (!found) continue;
       const bool leaps =
           !run.after_gap && !run.before_gap &&
-          static_cast<double>(run.end - run.first) < kLongestLeap_s * tracks().rate.hz;
+          static_cast<double>(run.end - run.first) < kMaxLeap_s * tracks().rate.hz;
       if (found->is_far() || (leaps && found->is_off())) {
         strays.push_back({run, found->off_m});
       }

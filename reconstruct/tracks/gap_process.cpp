@@ -97,14 +97,14 @@ std::vector<std::size_t> choose_lessons(const GapContext& trial,
     }
     ++with_missing[missing[f]];
   }
-  std::size_t most = 0;
+  std::size_t maximum = 0;
   std::size_t found = with_missing[0];
   const double wanted = kLessonShare * static_cast<double>(frames - with_missing.back());
-  while (static_cast<double>(found) < wanted && most < companions.size())
-    found += with_missing[++most];
+  while (static_cast<double>(found) < wanted && maximum < companions.size())
+    found += with_missing[++maximum];
   std::vector<std::size_t> fit;
   for (std::size_t f = 0; f < frames; ++f) {
-    if (missing[f] <= most) fit.push_back(f);
+    if (missing[f] <= maximum) fit.push_back(f);
   }
   std::vector<std::size_t> lessons;
   const std::size_t count = std::min(kLessonFrames, fit.size());

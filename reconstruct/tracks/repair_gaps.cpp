@@ -86,14 +86,14 @@ void fill_pieces(const GapContext& trial,
                  const FrameSpan& gap,
                  const FrameSpan& piece,
                  std::vector<std::pair<FrameSpan, GapFill>>& fills) {
-  const auto least =
+  const auto minimum =
       static_cast<std::size_t>(std::lround(kMinPiece_s * trial.tracks.rate.hz));
   auto fill = fill_gap(trial, marker, gap, piece);
   if (fill) {
     fills.emplace_back(piece, std::move(*fill));
     return;
   }
-  if (piece.size() < 2 * std::max<std::size_t>(1, least)) return;
+  if (piece.size() < 2 * std::max<std::size_t>(1, minimum)) return;
   const std::size_t middle = piece.first + piece.size() / 2;
   fill_pieces(trial, marker, gap, {piece.first, middle}, fills);
   fill_pieces(trial, marker, gap, {middle, piece.end}, fills);
@@ -163,7 +163,7 @@ GapEstimate estimate_gap(const GapContext& trial,
   fill_pieces(trial, gap.marker, gap.span, gap.span, fills);
   if (fills.empty()) {
     const bool is_short = static_cast<double>(gap.span.size()) <=
-                          options.longest_spline_s * trial.tracks.rate.hz;
+                          options.max_spline_s * trial.tracks.rate.hz;
     if (is_short) return spline(trial.tracks, gap);
     return {std::vector<std::optional<MarkerSample>>(gap.span.size()), {}, {}};
   }

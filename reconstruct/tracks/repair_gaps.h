@@ -27,7 +27,7 @@ struct RepairOptions {
   /// Samples with a larger standard deviation per coordinate are left empty.
   double max_sigma_m = 0.1;
   /// Without other markers, a gap up to this length is bridged by the marker's own path.
-  double longest_spline_s = 0.2;
+  double max_spline_s = 0.2;
   /// The second pass uses the repairs of other gaps. At least 1; a third pass would
   /// change less than a tenth of a millimetre.
   int passes = 2;

@@ -26,7 +26,7 @@ struct RowTime {
 /// The rows of a file, in its frame and unit.
 class Rows {
  public:
-  /// Limits the samples to `most`: rows may be short, and labels many.
+  /// Limits the samples to `maximum`: rows may be short, and labels many.
   Rows(LineReader& lines,
        TrcHeader& header,
        const std::string& file,

@@ -73,8 +73,8 @@ std::u32string code_points(std::string_view text) {
       good = (next & 0xc0U) == 0x80;
       point = (point << 6U) | (next & 0x3fU);
     }
-    constexpr std::array<char32_t, 4> kSmallest{0, 0x80, 0x800, 0x10000};
-    good = good && point >= kSmallest[more] && point <= 0x10ffff &&
+    constexpr std::array<char32_t, 4> kMinCodePoint{0, 0x80, 0x800, 0x10000};
+    good = good && point >= kMinCodePoint[more] && point <= 0x10ffff &&
            (point < 0xd800 || point > 0xdfff);
     out += good ? point : U'\ufffd';
     i += good ? more + 1 : 1;

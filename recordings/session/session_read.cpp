@@ -294,11 +294,11 @@ Trial SessionReader::read_trial(TomlReader& reader) {
 }
 
 FrameRange SessionReader::read_frames(TomlReader& reader) {
-  constexpr double kHighest = 1e8;
+  constexpr double kMaxValue = 1e8;
   const char* next = "write the first and the last frame to use: frames = [0, 126]";
   const std::vector<double> frames = reader.numbers("frames", 2);
   for (const double frame : frames) {
-    if (frame >= 0 && frame <= kHighest && frame == std::floor(frame)) continue;
+    if (frame >= 0 && frame <= kMaxValue && frame == std::floor(frame)) continue;
     reader.fail("frames", "\"frames\" must be two whole numbers from 0", next);
     return {};
   }

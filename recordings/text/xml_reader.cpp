@@ -88,7 +88,7 @@ bool is_control(char c) {
 
 bool is_utf8(std::string_view text) {
   // Lowest code point of each length, which excludes overlong forms.
-  constexpr std::array<std::uint32_t, 4> kLowest{0, 0x80, 0x800, 0x10000};
+  constexpr std::array<std::uint32_t, 4> kMinCodePoint{0, 0x80, 0x800, 0x10000};
   for (std::size_t i = 0; i < text.size();) {
     const auto head = static_cast<unsigned char>(text[i]);
     std::size_t more = 0;
@@ -103,7 +103,7 @@ bool is_utf8(std::string_view text) {
       code = code << 6 | (byte & 0x3fU);
     }
     const bool is_surrogate = code >= 0xd800 && code < 0xe000;
-    if (code < kLowest[more] || code > 0x10ffff || is_surrogate) return false;
+    if (code < kMinCodePoint[more] || code > 0x10ffff || is_surrogate) return false;
     i += more + 1;
   }
   return true;

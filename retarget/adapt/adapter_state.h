@@ -34,7 +34,7 @@ struct PackedProblem {
   std::vector<TargetNumbers> numbers;  ///< In the order of plan.points; `targets` are
                                        ///< computed from them.
   std::vector<double> activations;     ///< In the order of plan.points.
-  double largest_weight = 0.0;         ///< Largest weight of the active constraints.
+  double max_weight = 0.0;             ///< Largest weight of the active constraints.
   std::vector<double> ramps;           ///< Distinct activations below 1, descending.
   explicit PackedProblem(const Plan& shared);
 };

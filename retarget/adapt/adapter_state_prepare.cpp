@@ -163,7 +163,7 @@ void AdapterState::read_targets(double time_s, PackedProblem& problem) {
     }
   }
   std::sort(ramps.begin(), ramps.end(), [](double a, double b) { return a > b; });
-  problem.largest_weight = max_weight;
+  problem.max_weight = max_weight;
 }
 
 // Loads the reference into the adapter's own lane, once per posture.
@@ -182,9 +182,9 @@ void AdapterState::pack_problem(double min_activation, PackedProblem& problem) c
   for (std::size_t k = 0; k < problem.numbers.size(); ++k) {
     const PointPlan& point = problem.plan->points[k];
     const auto c = static_cast<std::size_t>(point.constraint);
-    const bool weighs = blends && point.level > 0 && problem.largest_weight > 0.0;
+    const bool weighs = blends && point.level > 0 && problem.max_weight > 0.0;
     problem.numbers[k].weight =
-        weighs ? constraints.constraints[c].importance / problem.largest_weight : 1.0;
+        weighs ? constraints.constraints[c].importance / problem.max_weight : 1.0;
     const double activation = problem.activations[k];
     problem.numbers[k].active = activation >= min_activation && activation > 0.0;
   }

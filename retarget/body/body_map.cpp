@@ -21,7 +21,7 @@ using B = HumanBone;
 constexpr double kMinBoneLength_m = 1e-6;
 // Minimum share of the curve for coinciding vertebrae, so that none is lost. It is a
 // share of the whole, so that bodies of all sizes divide the curve equally.
-constexpr double kShortestVertebra = 2e-3;
+constexpr double kMinVertebra = 2e-3;
 // Toe joint from ankle in leg lengths, after average_proportions().
 constexpr double kFootLengthInLegs = 0.16;
 constexpr double kAnkleHeightInLegs = 0.08;
@@ -144,7 +144,7 @@ void map_sole(const BodyMapBuilder& b,
               const glm::dquat& align,
               FootMap& foot) {
   const glm::dvec3 ball = foot.ball_from_ankle_in_t_pose;
-  constexpr double kShortestTip_m = 1e-6;
+  constexpr double kMinTip_m = 1e-6;
   const double length_m = glm::length(glm::dvec2(ball.x, ball.z));
   foot.heel_from_ankle_in_t_pose = {
       0.0, -foot.ankle_height_m, -kBearingHeelInBall * length_m};
@@ -154,7 +154,7 @@ void map_sole(const BodyMapBuilder& b,
     const glm::dvec3 given =
         align * (at * *b.skeleton[*toes].tip_in_joint - at.translation);
     // A tip at its joint carries no information: files without a tip write it so.
-    if (glm::length(glm::dvec2(given.x, given.z)) > kShortestTip_m) tip = given;
+    if (glm::length(glm::dvec2(given.x, given.z)) > kMinTip_m) tip = given;
   }
   foot.tip_from_ball_in_t_pose = {tip.x, -foot.ball_height_m, tip.z};
 }
@@ -236,11 +236,10 @@ std::vector<double> arc_ends_m(const BodyMapBuilder& b,
     end_m.push_back(next ? glm::length(b.place(*next) - b.place(chain[i])) : 0.0);
     whole_m += end_m.back();
   }
-  const double shortest_m =
-      kShortestVertebra * (whole_m > kMinBoneLength_m ? whole_m : 1.0);
+  const double min_m = kMinVertebra * (whole_m > kMinBoneLength_m ? whole_m : 1.0);
   double sum_m = 0.0;
   for (double& end : end_m) {
-    sum_m += std::max(end, shortest_m);
+    sum_m += std::max(end, min_m);
     end = sum_m;
   }
   return end_m;

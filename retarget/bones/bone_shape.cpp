@@ -50,7 +50,7 @@ std::optional<BranchPair> best_pair(const SkeletonTree& tree,
   };
   std::vector<Branch> branches;
   for (const JointIndex child : tree.children(from)) {
-    const auto limb = limb_joints(tree, tree.longest_way(child), upper_over_lower);
+    const auto limb = limb_joints(tree, tree.longest_path(child), upper_over_lower);
     if (!limb) continue;
     const double reach =
         tree.distance(limb->upper, limb->lower) + tree.distance(limb->lower, limb->end);

@@ -75,7 +75,7 @@ void find_ends(Completion& c) {
     const auto end = c.found.joint(limb.end);
     if (!lower || c.is_overridden(limb.end)) continue;
     if (end && c.tree.is_below(*end, *lower)) continue;
-    const std::vector<JointIndex> way = c.tree.longest_way(*lower);
+    const std::vector<JointIndex> way = c.tree.longest_path(*lower);
     if (end && ends_limb(c, limb, *lower, *end, way)) {
       c.remark(c.tree.quoted(*end) + ", the " + std::string(name(limb.end)) +
                ", was not below " + c.tree.quoted(*lower) + "; it was moved there");

@@ -178,7 +178,7 @@ void make_foot(bool is_left, ReparentedBody& body) {
   const B bone = is_left ? B::kLeftFoot : B::kRightFoot;
   if (body.found.joint(bone) || !hip || !knee) return;
   const SkeletonTree tree(body.skeleton);
-  const std::vector<JointIndex> way = tree.longest_way(*knee);
+  const std::vector<JointIndex> way = tree.longest_path(*knee);
   glm::dvec3 end = 2.0 * tree.place(*knee) - tree.place(*hip);
   if (way.size() > 1) {
     end = tree.place(way[1]);

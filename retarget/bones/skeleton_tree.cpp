@@ -73,7 +73,7 @@ std::vector<JointIndex> SkeletonTree::between(JointIndex above, JointIndex below
   return way;
 }
 
-std::vector<JointIndex> SkeletonTree::longest_way(JointIndex joint) const {
+std::vector<JointIndex> SkeletonTree::longest_path(JointIndex joint) const {
   std::vector<JointIndex> way{joint};
   for (;;) {
     std::optional<JointIndex> next;

@@ -49,7 +49,7 @@ class SkeletonTree {
   /// Length of the longest path down from the joint, tips included, in the file's unit.
   [[nodiscard]] double reach(JointIndex joint) const { return reach_[index(joint)]; }
   /// Joints of that path, the joint itself first.
-  [[nodiscard]] std::vector<JointIndex> longest_way(JointIndex joint) const;
+  [[nodiscard]] std::vector<JointIndex> longest_path(JointIndex joint) const;
   /// Returns 'Hips' in quotes, or: joint 12, if it has no name.
   [[nodiscard]] std::string quoted(JointIndex joint) const;
 

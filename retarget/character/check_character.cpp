@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-constexpr double kHeaviest_kg = 1e6;
+constexpr double kMaxMass_kg = 1e6;
 
 bool has_finite(double x) {
   return std::isfinite(x);
@@ -142,10 +142,10 @@ Status check_mass(const CharacterCheck& check,
                         "its place is more than 10 km from its joint",
                         "give its place in metres");
   }
-  if (mass.mass_kg > kHeaviest_kg) {
+  if (mass.mass_kg > kMaxMass_kg) {
     return check.refuse(called,
                         "its mass is " + digits(mass.mass_kg) + " kg",
-                        "give it in kg; " + digits(kHeaviest_kg) + " kg is the maximum");
+                        "give it in kg; " + digits(kMaxMass_kg) + " kg is the maximum");
   }
   return Done{};
 }

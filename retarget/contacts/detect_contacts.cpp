@@ -148,14 +148,14 @@ std::vector<FrameInterval> resting_runs(const Path& path,
         start.begin() + run.last + 1) {
       continue;
     }
-    if (!merged.empty() && run.first - merged.back().last - 1 <= o.longest_gap_s * hz) {
+    if (!merged.empty() && run.first - merged.back().last - 1 <= o.max_gap_s * hz) {
       merged.back().last = run.last;
     } else {
       merged.push_back(run);
     }
   }
   std::erase_if(merged, [&](const FrameInterval& run) {
-    return run.last - run.first + 1 < o.shortest_s * hz;
+    return run.last - run.first + 1 < o.min_contact_s * hz;
   });
   return merged;
 }
@@ -181,7 +181,7 @@ std::vector<FrameInterval> heel_up_runs(const Path& ankle,
   }
   std::vector<FrameInterval> out = runs(still);
   std::erase_if(out, [&](const FrameInterval& run) {
-    if (run.last - run.first + 1 < o.shortest_s * hz) return true;
+    if (run.last - run.first + 1 < o.min_contact_s * hz) return true;
     glm::dvec3 mean(0.0);
     for (int k = run.first; k <= run.last; ++k) {
       mean += ankle.p_in_world[static_cast<std::size_t>(k)];

@@ -47,8 +47,8 @@ struct DetectContactsOptions {
   double keep_height_legs = 0.045;  ///< and lasts while below this one.
   double heel_up_legs = 0.03;       ///< Maximum movement of a still raised heel.
   double uneven_legs = 0.06;        ///< Maximum height difference between steps.
-  double shortest_s = 0.06;         ///< Shorter contacts are dropped.
-  double longest_gap_s = 0.05;      ///< Shorter interruptions are noise.
+  double min_contact_s = 0.06;      ///< Shorter contacts are dropped.
+  double max_gap_s = 0.05;          ///< Shorter interruptions are noise.
   double smoothing_s = 0.06;        ///< Span of the line fits that give the speeds.
 };
 

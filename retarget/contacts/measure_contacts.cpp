@@ -35,7 +35,7 @@ ContactPaths contact_paths(const Motion& motion, const BodyMap& map) {
 ContactLabels label_contacts(const ContactPaths& source, double hz) {
   constexpr double kSlow_m_per_s = 0.2;
   constexpr double kLow_m = 0.05;
-  constexpr double kLowest = 0.02;
+  constexpr double kMinQuantile = 0.02;
   ContactLabels labels;
   for (std::size_t i = 0; i < source.size(); ++i) {
     const auto& path = source[i];
@@ -43,9 +43,9 @@ ContactLabels label_contacts(const ContactPaths& source, double hz) {
     std::vector<double> heights;
     for (const glm::dvec3& p : path) heights.push_back(p.y);
     std::sort(heights.begin(), heights.end());
-    const double low_m =
-        heights[static_cast<std::size_t>(kLowest * static_cast<double>(path.size()))] +
-        kLow_m;
+    const double low_m = heights[static_cast<std::size_t>(
+                             kMinQuantile * static_cast<double>(path.size()))] +
+                         kLow_m;
     for (std::size_t t = 0; t + 1 < path.size(); ++t) {
       const double speed_m_per_s = glm::length(path[t + 1] - path[t]) * hz;
       labels[i].push_back(speed_m_per_s < kSlow_m_per_s && path[t].y < low_m ? 1 : 0);

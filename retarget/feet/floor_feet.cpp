@@ -90,7 +90,7 @@ Carry land(const FloorFeetTask& task,
       floor_at(task.floor, xz_of(carry.pivot) + carried_xz_m, task.time_s(stance.first));
   carry.stance = {stance, spot.part};
   carry.shift_m = {carried_xz_m.x, spot.height_m, carried_xz_m.y};
-  carry.turn = turn_to(spot.normal_in_world, task.options.steepest_foot_rad);
+  carry.turn = turn_to(spot.normal_in_world, task.options.max_foot_pitch_rad);
   carry.moved_before_m = task.moved(spot.part, stance.first);
   return carry;
 }

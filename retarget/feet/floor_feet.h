@@ -31,7 +31,7 @@ struct FloorFeetOptions {
   /// Maximum rotation of a foot with the floor: about as far as a standing ankle bends.
   /// On steeper ground only the foot's deciding point (ankle or ball) is in contact.
   /// [rad]
-  double steepest_foot_rad = 0.6;
+  double max_foot_pitch_rad = 0.6;
 };
 
 /// Puts feet that were planned on the level floor Y = 0 (plan_foot()) on another floor.

@@ -75,13 +75,13 @@ struct Yaws {
 };
 
 Yaws yaws_of(const FootprintStance& stance) {
-  constexpr double kSteepest = 0.34;  // Cosine of 70 degrees.
+  constexpr double kMinCosine = 0.34;  // Cosine of 70 degrees.
   Yaws out{std::vector<double>(stance.count(), 0.0),
            std::vector<char>(stance.count(), 0)};
   std::optional<std::size_t> before;
   for (std::size_t k = 0; k < stance.count(); ++k) {
     const glm::dvec3 ahead = ahead_of(stance.place(k));
-    if (glm::length(level(ahead)) < kSteepest) continue;
+    if (glm::length(level(ahead)) < kMinCosine) continue;
     double yaw = std::atan2(ahead.x, ahead.z);
     const double last = before ? out.rad[*before] : yaw;
     yaw += 2.0 * std::numbers::pi * std::round((last - yaw) / (2.0 * std::numbers::pi));

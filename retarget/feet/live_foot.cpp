@@ -55,9 +55,9 @@ void LiveFoot::turn_along(const FootMap& foot, const FootPlace& reference) {
   // 4 degrees; FootprintOptions::flat_rad is the limit of whole motions. A foot steeper
   // than 70 degrees has no yaw.
   constexpr double kPlay_rad = 0.07;
-  constexpr double kSteepest = 0.34;
+  constexpr double kMinCosine = 0.34;
   const glm::dvec3 ahead = reference.foot * glm::dvec3(0, 0, 1);
-  if (glm::length(glm::dvec2(ahead.x, ahead.z)) < kSteepest) return;
+  if (glm::length(glm::dvec2(ahead.x, ahead.z)) < kMinCosine) return;
   const glm::dvec3 now = glm::conjugate(heading_) * ahead;
   const double apart_rad = std::atan2(now.x, now.z);
   const double turn_rad = apart_rad - std::clamp(apart_rad, -kPlay_rad, kPlay_rad);

@@ -95,14 +95,14 @@ std::vector<double> means(const std::vector<double>& values, int half) {
 // `start`; short gaps are closed.
 std::vector<FrameInterval> runs_of(const std::vector<char>& keeps,
                                    const std::vector<char>& starts,
-                                   double longest_gap,
+                                   double max_gap,
                                    double shortest) {
   std::vector<FrameInterval> runs;
   std::vector<char> started;
   for (int t = 0; t < static_cast<int>(keeps.size()); ++t) {
     const auto i = static_cast<std::size_t>(t);
     if (!keeps[i]) continue;
-    if (!runs.empty() && t - runs.back().last - 1 <= longest_gap) {
+    if (!runs.empty() && t - runs.back().last - 1 <= max_gap) {
       runs.back().last = t;
       started.back() = started.back() || starts[i] ? 1 : 0;
     } else {
@@ -208,7 +208,7 @@ void find_on(const Search& search,
         gap_legs[t] < o.start_gap_legs && speed_legs[t] < o.start_speed_legs_per_s;
   }
   for (const FrameInterval& run :
-       runs_of(keeps, starts, o.longest_gap_s * search.hz, o.shortest_s * search.hz)) {
+       runs_of(keeps, starts, o.max_gap_s * search.hz, o.min_touch_s * search.hz)) {
     out.push_back(touch_of(search, side, run, parts));
   }
 }
@@ -257,9 +257,9 @@ void find_still(const Search& search,
   for (std::size_t t = 0; t < slow.size(); ++t) {
     slow[t] = speed[t] < o.still_speed_legs_per_s * search.leg_m;
   }
-  const double shortest = o.still_shortest_s * search.hz;
+  const double shortest = o.min_still_s * search.hz;
   for (const FrameInterval& run :
-       runs_of(slow, slow, o.longest_gap_s * search.hz, shortest)) {
+       runs_of(slow, slow, o.max_gap_s * search.hz, shortest)) {
     for (int first = run.first; first <= run.last;) {
       const int last =
           stays_until(path, first, run.last, o.still_radius_legs * search.leg_m);

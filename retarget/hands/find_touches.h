@@ -48,15 +48,15 @@ struct FindTouchesOptions {
   double start_speed_legs_per_s = 0.3;  ///< A touch starts below this speed over the
                                         ///< part,
   double keep_speed_legs_per_s = 0.55;  ///< and continues while below this one.
-  double shortest_s = 0.1;              ///< Shorter touches are discarded.
-  double longest_gap_s = 0.05;          ///< Shorter gaps are closed.
+  double min_touch_s = 0.1;             ///< Shorter touches are discarded.
+  double max_gap_s = 0.05;              ///< Shorter gaps are closed.
   double smoothing_s = 0.06;            ///< Window of the fit of positions and speeds.
   /// A hand is still while it stays within `still_radius` of its position for at least
-  /// `still_shortest_s`, and its shoulder moves by more than `still_travel`.
+  /// `min_still_s`, and its shoulder moves by more than `still_travel`.
   double still_speed_legs_per_s = 0.06;
   double still_radius_legs = 0.02;
   double still_travel_legs = 0.06;
-  double still_shortest_s = 0.4;
+  double min_still_s = 0.4;
 };
 
 /// Detects contacts of the hands with the body, from the motion and the body's volume

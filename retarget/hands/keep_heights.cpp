@@ -20,10 +20,10 @@ namespace {
 // root at constant length. The steeper the vector, the less its horizontal direction is
 // kept: an upright one has none.
 glm::dvec3 turned_up(const glm::dvec3& from_root, double up_m) {
-  constexpr double kSteepest = 0.98;
+  constexpr double kMaxSine = 0.98;
   constexpr double kUpright = 0.1;
   const double length_m = std::max(glm::length(from_root), 1e-9);
-  const double max_m = kSteepest * length_m;
+  const double max_m = kMaxSine * length_m;
   const double y_m = std::clamp(up_m, -max_m, max_m);
   const double level_m = std::sqrt(length_m * length_m - y_m * y_m) /
                          std::hypot(from_root.x, from_root.z, kUpright * length_m);

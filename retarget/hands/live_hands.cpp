@@ -28,7 +28,7 @@ constexpr std::array kBody{P::kHead,
                            P::kRightThigh,
                            P::kLeftShank,
                            P::kRightShank};
-constexpr double kNearest_legs = 0.01;  // Smaller distances have the same weight.
+constexpr double kMinDistance_legs = 0.01;  // Smaller distances have the same weight.
 // If neither hand is free, the error is shared.
 constexpr double kMinLiveFreedom = 1e-3;
 
@@ -43,7 +43,7 @@ struct WeightedShift {
   double strength = 0.0;  // Strength of the strongest point, 0 to 1.
 
   void add(const glm::dvec3& way_m, double gap_legs, double active) {
-    const double near = std::max(gap_legs, 0.0) + kNearest_legs;
+    const double near = std::max(gap_legs, 0.0) + kMinDistance_legs;
     const double weight = active / (near * near);
     sum_m += weight * way_m;
     weights += weight;

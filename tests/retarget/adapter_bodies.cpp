@@ -245,18 +245,18 @@ double angle_between_rad(const glm::dquat& a, const glm::dquat& b) {
 }
 
 double max_turned_rad(const Pose& a, const Pose& b) {
-  double most = 0.0;
+  double maximum = 0.0;
   for (std::size_t j = 0; j < a.parent_from_joint.size(); ++j) {
-    most =
-        std::max(most, angle_between_rad(a.parent_from_joint[j], b.parent_from_joint[j]));
+    maximum = std::max(maximum,
+                       angle_between_rad(a.parent_from_joint[j], b.parent_from_joint[j]));
   }
-  return most;
+  return maximum;
 }
 
 double beyond_limits_rad(const Character& character,
                          const Pose& pose,
                          const std::vector<std::size_t>& free) {
-  double most = 0.0;
+  double maximum = 0.0;
   for (const JointLimit& limit : character.limits) {
     if (std::find(free.begin(), free.end(), index(limit.joint)) != free.end()) continue;
     const glm::dvec3 angles =
@@ -264,9 +264,9 @@ double beyond_limits_rad(const Character& character,
                     character.skeleton[limit.joint].parent_from_joint.rotation,
                     pose.parent_from_joint[index(limit.joint)]);
     const glm::dvec3 over = glm::max(angles - limit.max_rad, limit.min_rad - angles);
-    most = std::max({most, over.x, over.y, over.z});
+    maximum = std::max({maximum, over.x, over.y, over.z});
   }
-  return most;
+  return maximum;
 }
 
 bool is_finite(const Pose& pose) {

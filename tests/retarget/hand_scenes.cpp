@@ -207,13 +207,13 @@ double gap_m(const BodyVolume& volume,
     const Capsule& capsule = *volume[part];
     return joints[index(capsule.joint)] * axis_point_in_joint(capsule, 0.02 * i - 1.0);
   };
-  double least = std::numeric_limits<double>::max();
+  double minimum = std::numeric_limits<double>::max();
   for (int i = 0; i <= 100; ++i) {
     for (int k = 0; k <= 100; ++k) {
-      least = std::min(least, glm::distance(point(a, i), point(b, k)));
+      minimum = std::min(minimum, glm::distance(point(a, i), point(b, k)));
     }
   }
-  return least - volume[a]->radius_m - volume[b]->radius_m;
+  return minimum - volume[a]->radius_m - volume[b]->radius_m;
 }
 
 }  // namespace marey::retarget

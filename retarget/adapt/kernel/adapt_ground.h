@@ -15,7 +15,7 @@ namespace marey::retarget {
 inline constexpr double kOnFootprint = 1e-6;
 /// Maximum horizontal distance of the root from above a footprint, as a share of the leg,
 /// unless the reference exceeds it. Beyond it the root's height drops increasingly fast.
-inline constexpr double kLongestStride = 0.95;
+inline constexpr double kMaxStride = 0.95;
 /// Minimum height of the hips above a footprint, as a share of the leg.
 inline constexpr double kMinHeight = 0.45;
 
@@ -152,8 +152,8 @@ template <class F>
       const Vec3<F> was = s.reference_place[static_cast<std::size_t>(limb.end)] -
                           s.reference_place[static_cast<std::size_t>(limb.upper)];
       const F stride = sqrt(was.x * was.x + was.z * was.z);
-      const F longest = max(num<F>(kLongestStride) * stand.reach,
-                            min(stride, num<F>(0.999) * stand.reach));
+      const F longest =
+          max(num<F>(kMaxStride) * stand.reach, min(stride, num<F>(0.999) * stand.reach));
       const Vec3<F> leg = stand.ankle - (stand.hip + shift);
       const F across = sqrt(leg.x * leg.x + leg.z * leg.z);
       const Mask<F> far =

@@ -29,7 +29,7 @@ inline constexpr double kNearTravel = 0.01;
 /// distance from which the whole body moves it.
 inline constexpr double kFarTravel = 0.05;
 /// Maximum drop of the hips in one step, in units.
-inline constexpr double kDeepestSink = 0.1;
+inline constexpr double kMaxSink = 0.1;
 /// Mobility from which the trunk's posture is independent of that of limbs and root
 /// alone.
 inline constexpr double kOwnWay = 0.05;
@@ -101,7 +101,7 @@ template <class F>
 }
 
 /// Lowers the hips where balance has moved the root beyond the reach of a standing leg,
-/// because moving back would lose balance. The drop is at most kDeepestSink.
+/// because moving back would lose balance. The drop is at most kMaxSink.
 template <class F>
 void sink_to_supports(const Plan& plan,
                       const SolveSettings& settings,
@@ -110,7 +110,7 @@ void sink_to_supports(const Plan& plan,
   if (!plan.has_supports) return;
   const F zero = num<F>(0);
   const F drop =
-      select(mask, min(needed_drop(plan, settings, true, s), num<F>(kDeepestSink)), zero);
+      select(mask, min(needed_drop(plan, settings, true, s), num<F>(kMaxSink)), zero);
   if (any(drop > zero)) shift_root(plan, {zero, -drop, zero}, s);
 }
 

@@ -91,7 +91,7 @@ TEST(Adapt, AdvisesMoreIterationsOnlyIfTheyWereUsedUp) {
   const std::string who = scene.character(
       "avatar = \"walk.bvh\"\nmass_kg = 70.0\n[[load]]\nname = \"ball\"\n"
       "segment = \"leftFoot\"\nmass_kg = 1000.0\n");
-  const auto advice = [&](const std::string& most) {
+  const auto advice = [&](const std::string& maximum) {
     const ProgramRun run = scene.adapt({"--character",
                                         who,
                                         "--load",
@@ -101,9 +101,9 @@ TEST(Adapt, AdvisesMoreIterationsOnlyIfTheyWereUsedUp) {
                                         "--balance-root-share",
                                         "0",
                                         "--max-iterations",
-                                        most});
+                                        maximum});
     const bool capped = Json::parse(run.out).at("iterations").at("frames_at_cap") > 0;
-    EXPECT_EQ(capped, most == "5") << run.out;
+    EXPECT_EQ(capped, maximum == "5") << run.out;
     const std::size_t at = run.err.find("the centre of mass is up to");
     EXPECT_NE(at, std::string::npos) << run.err;
     return run.err.substr(at, run.err.find('\n', at) - at);

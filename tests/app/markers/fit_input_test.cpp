@@ -104,11 +104,11 @@ TEST(FitProgram, SolvesOneFrame) {
   const ProgramRun run =
       fit({(folder / "one.trc").string(), "--out", (folder / "out").string()});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const auto [median, most] =
+  const auto [median, maximum] =
       joint_errors(folder / "out/one/joints.csv", person, standing(person));
   // From landmarks and proportions alone, of a person who is not average.
   EXPECT_LT(median, 0.025);
-  EXPECT_LT(most, 0.060);
+  EXPECT_LT(maximum, 0.060);
 }
 
 TEST(FitProgram, NoticesThatLeftIsRight) {

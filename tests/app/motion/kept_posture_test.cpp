@@ -189,9 +189,8 @@ void expect_kept(const Motion& source,
     const bool is_foot = segment >= testing::Segment::kLeftFoot;
     if (is_foot && !result_joints[index(B::kLeftToes)]) continue;
     ASSERT_TRUE(errors.mean_rad[i]) << testing::name(segment);
-    const double most_deg = i < 2 ? 8.0 : is_foot ? body.feet_off : body.limbs_off;
-    EXPECT_LT(*errors.mean_rad[i] / kRadiansPerDegree, most_deg)
-        << testing::name(segment);
+    const double max_deg = i < 2 ? 8.0 : is_foot ? body.feet_off : body.limbs_off;
+    EXPECT_LT(*errors.mean_rad[i] / kRadiansPerDegree, max_deg) << testing::name(segment);
   }
 }
 

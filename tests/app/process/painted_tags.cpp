@@ -32,16 +32,16 @@ cv::Rect around(const Camera& camera, const PaintedTag& tag, double paper_m) {
   const glm::dvec3 into_tag = tag.world_from_tag.rotation * glm::dvec3(0, 0, 1);
   const glm::dvec3 sight = tag.world_from_tag.translation - centre_in_world(camera);
   if (glm::dot(into_tag, sight) <= 0.0) return {};
-  glm::dvec2 least(1e9);
+  glm::dvec2 minimum(1e9);
   glm::dvec2 greatest(-1e9);
   for (int i = 0; i < 4; ++i) {
     const auto pixel = project(camera, tag.world_from_tag * corner_in_tag(i, paper_m));
     if (!pixel) return {};
-    least = glm::min(least, *pixel);
+    minimum = glm::min(minimum, *pixel);
     greatest = glm::max(greatest, *pixel);
   }
-  const cv::Point from(static_cast<int>(std::floor(least.x)) - 2,
-                       static_cast<int>(std::floor(least.y)) - 2);
+  const cv::Point from(static_cast<int>(std::floor(minimum.x)) - 2,
+                       static_cast<int>(std::floor(minimum.y)) - 2);
   const cv::Point to(static_cast<int>(std::ceil(greatest.x)) + 3,
                      static_cast<int>(std::ceil(greatest.y)) + 3);
   return cv::Rect(from, to) & picture;

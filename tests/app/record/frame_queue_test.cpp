@@ -64,7 +64,7 @@ TEST(FrameQueue, RejectsOnlyFramesLargerThanItsMemory) {
 // largest would fit.
 TEST(FrameQueue, KeepsEveryByteOfFramesOfManySizes) {
   constexpr std::size_t kMemory = 1000;
-  constexpr std::size_t kLargest = 300;
+  constexpr std::size_t kMaxBytes = 300;
   constexpr std::size_t kPlaces = 6;
   FrameQueue queue(kPlaces, kMemory);
   std::deque<std::vector<std::byte>> expected;
@@ -74,12 +74,12 @@ TEST(FrameQueue, KeepsEveryByteOfFramesOfManySizes) {
   int refused = 0;
   for (int i = 0; i < 20000; ++i) {
     if (random() % 2 == 0) {
-      std::vector<std::byte> bytes(1 + random() % kLargest);
+      std::vector<std::byte> bytes(1 + random() % kMaxBytes);
       for (std::byte& b : bytes) b = static_cast<std::byte>(random());
       const bool taken = queue.push(bytes, {});
       if (!taken) ++refused;
       const bool has_room =
-          waiting + 2 * kLargest <= kMemory && expected.size() < kPlaces;
+          waiting + 2 * kMaxBytes <= kMemory && expected.size() < kPlaces;
       EXPECT_TRUE(taken || !has_room);
       if (!taken) continue;
       waiting += bytes.size();

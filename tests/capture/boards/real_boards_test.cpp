@@ -94,10 +94,10 @@ TEST(RealBoards, CornersOfWebcamsFitACameraToATenthOfAPixel) {
   board.is_two_sided = true;  // Camera 1 sees its back.
   const std::map<std::string, std::size_t> min_views{
       {"cam_0.mp4", 44}, {"cam_1.mp4", 42}, {"cam_2.mp4", 38}, {"cam_3.mp4", 20}};
-  for (const auto& [name, least] : min_views) {
+  for (const auto& [name, minimum] : min_views) {
     SCOPED_TRACE(name);
     const Views views = views_in(session / "calibration/extrinsic" / name, board, 8);
-    ASSERT_GE(views.pixels.size(), least);
+    ASSERT_GE(views.pixels.size(), minimum);
     const Solved solved = calibrated(views, {1280, 720});
     EXPECT_LT(solved.rms_px, 0.1);
     // The root mean square of distances is that of coordinates times the root of two.

@@ -50,7 +50,7 @@ GroupFramesOptions live() {
   options.mode = GroupingMode::kLive;
   options.rate = {100.0};
   options.origin = std::nullopt;
-  options.longest_wait = milliseconds(40);
+  options.max_wait = milliseconds(40);
   options.silent_after = milliseconds(150);
   options.capacity = 8;
   return options;

@@ -55,7 +55,7 @@ GroupFramesOptions live() {
   GroupFramesOptions options;
   options.mode = GroupingMode::kLive;
   options.rate = {100.0};  // A period is 10 ms.
-  options.longest_wait = milliseconds(15);
+  options.max_wait = milliseconds(15);
   options.silent_after = milliseconds(200);
   return options;
 }

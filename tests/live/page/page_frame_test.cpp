@@ -73,11 +73,11 @@ TEST(PageFrame, HoldsWhatNoFloatDoes) {
   const std::array<PageFigure, 1> figures{{{.pose = &pose}}};
   std::string out;
   append_frame({.figures = figures}, out);
-  const float most = std::numeric_limits<float>::max();
+  const float maximum = std::numeric_limits<float>::max();
   std::array<float, 2> got{};
   std::memcpy(got.data(), out.data() + 28, sizeof got);
-  EXPECT_EQ(got[0], most);
-  EXPECT_EQ(got[1], -most);
+  EXPECT_EQ(got[0], maximum);
+  EXPECT_EQ(got[1], -maximum);
 }
 
 TEST(PageFrame, AllocatesNothingInABufferThatHasGrown) {

@@ -64,11 +64,12 @@ struct LoneArm {
     }
   }
 
-  [[nodiscard]] std::vector<SingleViewInterval> stretches(std::size_t most = 60) const {
+  [[nodiscard]] std::vector<SingleViewInterval> stretches(
+      std::size_t maximum = 60) const {
     const BodyModel model = to_model(truth);
     std::vector<SingleViewInterval> arm;
     for (const SingleViewInterval& run :
-         single_view_intervals(model, group_sightings(detections, model.tags), most)) {
+         single_view_intervals(model, group_sightings(detections, model.tags), maximum)) {
       if (run.limb == 1) arm.push_back(run);
     }
     return arm;

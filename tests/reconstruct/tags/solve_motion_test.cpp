@@ -216,7 +216,7 @@ TEST(SolveMotion, CallsABridgedSegmentRepaired) {
 TEST(SolveMotion, CallsASegmentHiddenForTooLongInferred) {
   Scene scene;
   scene.hide({HumanBone::kLeftHand}, 12, 26);
-  scene.options.longest_repair_s = 0.4;
+  scene.options.max_repair_s = 0.4;
   const auto trial = scene.solve();
   ASSERT_TRUE(trial) << trial.error().message();
   EXPECT_EQ(sources(*trial, HumanBone::kLeftHand)[11], Source::kMeasured);

@@ -102,11 +102,11 @@ TEST(PlanFile, MayListTheWornTags) {
 }
 
 TEST(PlanFile, BoundsTheVolumeBeforeAnybodyCountsIt) {
-  const auto refusal = [](const char* least, const char* greatest) {
-    return mistake_of(
-        testing::replace_first(testing::replace_first(plan_text(), "[-2.0, -1.5]", least),
-                               "[2.0, 1.5]",
-                               greatest));
+  const auto refusal = [](const char* minimum, const char* greatest) {
+    return mistake_of(testing::replace_first(
+        testing::replace_first(plan_text(), "[-2.0, -1.5]", minimum),
+        "[2.0, 1.5]",
+        greatest));
   };
   const std::string far = "is more than a kilometre from the origin. Next: give metres: ";
   EXPECT_EQ(refusal("[0.0, 0.0]", "[1e5, 0.001]"),

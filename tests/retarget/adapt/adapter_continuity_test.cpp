@@ -131,8 +131,8 @@ class AdapterFollows : public ::testing::TestWithParam<Case> {};
 // body takes over before limbs are straighter. Where two joints of one chain both rotate,
 // their rates add; other joints compensate a joint at its limit. A leg that becomes
 // straight stops the hips at once.
-constexpr double kFastest_rad_per_m = 80.0;
-constexpr double kFastestRoot_m_per_m = 16.0;
+constexpr double kMaxTurn_rad_per_m = 80.0;
+constexpr double kMaxRootPath_m_per_m = 16.0;
 
 TEST_P(AdapterFollows, WithoutJumps) {
   const Case& asked = GetParam();
@@ -161,9 +161,9 @@ TEST_P(AdapterFollows, WithoutJumps) {
     options.balance = asked.balance;
     Follower out = follower(body, set, options);
     follow(out, paths);
-    const double fastest = asked.times_as_fast * kFastest_rad_per_m;
+    const double fastest = asked.times_as_fast * kMaxTurn_rad_per_m;
     EXPECT_LT(out.pace.joints_rad_per_m, fastest) << "round " << round;
-    EXPECT_LT(out.pace.root_m_per_m, asked.times_as_fast * kFastestRoot_m_per_m)
+    EXPECT_LT(out.pace.root_m_per_m, asked.times_as_fast * kMaxRootPath_m_per_m)
         << "round " << round;
     EXPECT_LT(out.pace.jerks_rad_per_m, (asked.stands ? 1.0 : 0.5) * fastest)
         << "round " << round;
@@ -240,8 +240,8 @@ TEST(AdapterFollows, AWishOfTheHeadBeginsToMoveWithoutAJump) {
         brow_in_world + step * kStep_m * glm::normalize(glm::dvec3(0.2, 0.1, 1.0)));
     out.step();
   }
-  EXPECT_LT(out.pace.joints_rad_per_m, 0.5 * kFastest_rad_per_m);
-  EXPECT_LT(out.pace.root_m_per_m, 0.5 * kFastestRoot_m_per_m);
+  EXPECT_LT(out.pace.joints_rad_per_m, 0.5 * kMaxTurn_rad_per_m);
+  EXPECT_LT(out.pace.root_m_per_m, 0.5 * kMaxRootPath_m_per_m);
 }
 
 }  // namespace

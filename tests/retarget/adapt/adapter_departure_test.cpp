@@ -23,13 +23,13 @@ AdaptOptions balanced_options() {
 
 /// Returns the largest rotation in the world of a segment outside arms and legs. [rad]
 double trunk_turn_rad(const Character& body, const Pose& a, const Pose& b) {
-  double most = 0.0;
+  double maximum = 0.0;
   for (const char* segment : {"hips", "spine", "chest", "upperChest", "neck", "head"}) {
-    most = std::max(
-        most,
+    maximum = std::max(
+        maximum,
         angle_between_rad(rotation_of(body, a, segment), rotation_of(body, b, segment)));
   }
-  return most;
+  return maximum;
 }
 
 /// Both feet are standing, and the left hand has a target in front of its shoulder that

@@ -150,9 +150,9 @@ TEST_P(AdapterFuzz, ReturnsPosturesWithinTheLimitsForRandomConstraints) {
 
 // Any position that constraints may have, uniform in the order of magnitude.
 glm::dvec3 any_far_place(Dice& dice) {
-  constexpr double kFurthest_m = 1e4;
+  constexpr double kMaxDistance_m = 1e4;
   const double far_m = std::pow(10.0, dice.between(0, 4));
-  return std::min(far_m, 0.999 * kFurthest_m) * dice.direction();
+  return std::min(far_m, 0.999 * kMaxDistance_m) * dice.direction();
 }
 
 // Half of the targets and points have the largest permitted distance.

@@ -25,7 +25,7 @@ INSTANTIATE_TEST_SUITE_P(Adapter, AdapterRamps, both_methods(), name_of);
 // leads between differ by up to half a turn in a joint, and three may ramp at
 // once: 25 mrad per ms. Means of quaternions turn a little faster in the
 // middle.
-constexpr double kFastest_rad = 0.03;
+constexpr double kMaxStep_rad = 0.03;
 
 double fastest_rad(Adapter& adapter, const Pose& reference, double until_s) {
   Pose now;
@@ -54,7 +54,7 @@ TEST_P(AdapterRamps, LetASupportComeAndGo) {
               "rightHand",
               place_of(body, reference, {"rightHand"}) + glm::dvec3(0.0, 0.3, 0.3));
   Adapter adapter = make_adapter(body, {{foot, hand}, {}}, options());
-  EXPECT_LT(fastest_rad(adapter, reference, 2.0), kFastest_rad);
+  EXPECT_LT(fastest_rad(adapter, reference, 2.0), kMaxStep_rad);
 }
 
 TEST_P(AdapterRamps, MayBeStartedAndStoppedWhileTheyRun) {
@@ -75,7 +75,7 @@ TEST_P(AdapterRamps, MayBeStartedAndStoppedWhileTheyRun) {
     if (frame == 100 || frame == 900) adapter.constraint("hand")->start(t);
     if (frame == 500 || frame == 1900) adapter.constraint("hand")->stop(t);
     static_cast<void>(adapter.adapt(reference, t, now));
-    ASSERT_LT(max_turned_rad(now, before), kFastest_rad) << frame;
+    ASSERT_LT(max_turned_rad(now, before), kMaxStep_rad) << frame;
     std::swap(now, before);
   }
 }
@@ -211,7 +211,7 @@ TEST_P(AdapterRamps, TurnNoHandThatIsKept) {
   changed.extremities_keep_orientation = true;
   Adapter adapter =
       make_adapter(body, {{arm, standing("foot", "rightFoot")}, {}}, changed);
-  EXPECT_LT(fastest_rad(adapter, reference, 1.1), kFastest_rad);
+  EXPECT_LT(fastest_rad(adapter, reference, 1.1), kMaxStep_rad);
 }
 
 /// A hand whose target is out of reach with balance, another one that fades in; feet with
@@ -256,7 +256,7 @@ TEST_P(AdapterRamps, KeepBalanceAndEndWhereTheyLead) {
                     1e-5)
               << frame;
         }
-        ASSERT_LT(max_turned_rad(now, before), kFastest_rad) << frame;
+        ASSERT_LT(max_turned_rad(now, before), kMaxStep_rad) << frame;
         std::swap(now, before);
       }
     }
@@ -286,7 +286,7 @@ TEST_P(AdapterRamps, PassFromOneControlToTheOtherInBalance) {
   adapter.set_options(changed);
   for (int frame = 1; frame <= 720; ++frame) {
     static_cast<void>(adapter.adapt(reference, kFrame_s * frame, now));
-    ASSERT_LT(max_turned_rad(now, before), kFastest_rad) << frame;
+    ASSERT_LT(max_turned_rad(now, before), kMaxStep_rad) << frame;
     std::swap(now, before);
   }
 }

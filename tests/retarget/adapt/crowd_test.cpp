@@ -169,10 +169,10 @@ TEST_P(CrowdOfMany, AnswersAsItsMembersDoWhenTheyCompromise) {
 }
 
 TEST_P(CrowdOfMany, AnswersAsItsMembersDoWhenTheyMayNotFinish) {
-  for (const int most : {1, 6}) {
+  for (const int maximum : {1, 6}) {
     Dice dice(2005);
     AdaptOptions few = options();
-    few.max_iterations = most;
+    few.max_iterations = maximum;
     expect_own_answers(members(human(false), 21, dice), few, dice);
   }
 }

@@ -111,14 +111,14 @@ TEST(ThesisAdapter, NeverMakesAnErrorLargerByIteratingOn) {
                dice.between(0.3, 1.5) * dice.direction());
     for (const Control control : {Control::kPriority, Control::kBlend}) {
       double before_m = 1e9;
-      for (int most = 1; most <= 20; ++most) {
+      for (int maximum = 1; maximum <= 20; ++maximum) {
         AdaptOptions options = by_the_thesis();
         options.control = control;
-        options.max_iterations = most;
+        options.max_iterations = maximum;
         Adapter adapter = make_adapter(scene.character, scene.set, options);
         Pose out;
         const AdaptReport report = adapter.adapt(scene.reference, 0.0, out);
-        EXPECT_LE(report.iterations, most);
+        EXPECT_LE(report.iterations, maximum);
         EXPECT_LE(report.constraint_error_m, before_m + 1e-9);
         before_m = report.constraint_error_m;
       }
@@ -145,10 +145,10 @@ TEST(ThesisAdapter, SettlesOnTargetsThatAreOutOfReach) {
     options.constraint_threshold_m = 1e-6;
     Adapter patient = make_adapter(scene.character, scene.set, options);
     Pose best;
-    const AdaptReport least = patient.adapt(scene.reference, 0.0, best);
+    const AdaptReport minimum = patient.adapt(scene.reference, 0.0, best);
     // Descent by groups has a long tail: improvements below the threshold, for hundreds
     // of iterations. The thesis reports 9 mm; its best was at 48 iterations.
-    EXPECT_LT(report.constraint_error_m - least.constraint_error_m, 0.06);
+    EXPECT_LT(report.constraint_error_m - minimum.constraint_error_m, 0.06);
   }
 }
 

@@ -35,15 +35,15 @@ RetargetedMotion put_on(const Motion& source,
 
 // Returns the maximum distance of a joint between the two motions. [m]
 double apart_m(const Motion& a, const Motion& b) {
-  double most = 0.0;
+  double maximum = 0.0;
   for (std::size_t t = 0; t < a.poses.size(); ++t) {
     const auto p = world_from_joints(a.skeleton, a.poses[t]);
     const auto q = world_from_joints(b.skeleton, b.poses[t]);
     for (std::size_t j = 0; j < p.size(); ++j) {
-      most = std::max(most, glm::length(p[j].translation - q[j].translation));
+      maximum = std::max(maximum, glm::length(p[j].translation - q[j].translation));
     }
   }
-  return most;
+  return maximum;
 }
 
 BalanceTrack track_of(const Motion& motion,

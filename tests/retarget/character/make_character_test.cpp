@@ -227,7 +227,7 @@ TEST(MakeCharacter, LimitsNothingThatCapturedPeopleDo) {
 }
 
 TEST(MakeCharacter, SharesTheSpinesRangeOutOverItsVertebrae) {
-  const auto most = [](int vertebrae) {
+  const auto maximum = [](int vertebrae) {
     const Skeleton body = testing::with_vertebrae(testing::giant(), vertebrae);
     const Character character = made(body);
     double sum = 0.0;
@@ -237,9 +237,9 @@ TEST(MakeCharacter, SharesTheSpinesRangeOutOverItsVertebrae) {
     return sum;
   };
   const double whole = spine_range(1).max_rad.x;
-  EXPECT_NEAR(most(1), whole, 1e-12);
-  EXPECT_NEAR(most(5), 2.0 * whole, 1e-12);
-  EXPECT_NEAR(most(15), 2.0 * whole, 1e-12);
+  EXPECT_NEAR(maximum(1), whole, 1e-12);
+  EXPECT_NEAR(maximum(5), 2.0 * whole, 1e-12);
+  EXPECT_NEAR(maximum(15), 2.0 * whole, 1e-12);
 }
 
 TEST(MakeCharacter, MirrorsItsLimits) {

@@ -49,9 +49,9 @@ TEST(Activation, HoldsForExactlyOneOfTwoAtAHandover) {
 }
 
 TEST(Activation, IsANumberWhateverTheTimes) {
-  const double least = 5e-324;
-  for (const double t : {-1e9, 0.0, least, 1.0, 1e9}) {
-    const double active = activation(between(0.0, 1e9, least, 1e9), t);
+  const double minimum = 5e-324;
+  for (const double t : {-1e9, 0.0, minimum, 1.0, 1e9}) {
+    const double active = activation(between(0.0, 1e9, minimum, 1e9), t);
     EXPECT_GE(active, 0.0);
     EXPECT_LE(active, 1.0);
   }
@@ -116,12 +116,12 @@ TEST(LiveActivation, GoesOnSmoothlyWheneverItIsStartedAndStopped) {
   const auto second = [&](double t) {
     return (live.at(t - h) - 2 * live.at(t) + live.at(t + h)) / (h * h);
   };
-  double least = 1.0;
+  double minimum = 1.0;
   for (double t = -0.1; t < 3.0; t += h) {
     EXPECT_LT(std::abs(second(t + h) - second(t)), 2125 * h) << t;
-    least = std::min(least, live.at(t));
+    minimum = std::min(minimum, live.at(t));
   }
-  EXPECT_LT(least, 0.9);
+  EXPECT_LT(minimum, 0.9);
   EXPECT_EQ(live.at(-0.1), 1.0);
   EXPECT_EQ(live.at(3.0), 1.0);
 }

@@ -125,11 +125,12 @@ TEST(Footprint, TurnsSmoothly) {
   const TurningFoot foot(120.0 * kRadiansPerDegree, 1.0);
   const auto plan = foot.plan();
   const auto fastest = [](const std::vector<FootPlace>& places) {
-    double most = 0.0;
+    double maximum = 0.0;
     for (std::size_t t = 1; t < places.size(); ++t) {
-      most = std::max(most, apart(yaw_of(places[t].foot), yaw_of(places[t - 1].foot)));
+      maximum =
+          std::max(maximum, apart(yaw_of(places[t].foot), yaw_of(places[t - 1].foot)));
     }
-    return most;
+    return maximum;
   };
   EXPECT_LT(fastest(plan), 1.1 * fastest(foot.reference));
 }

@@ -153,13 +153,13 @@ double steepest(const Skeleton& source, const Skeleton& body, int count) {
       const auto to_now =
           world_from_joints(body, expand(normalize(source, source_map, pose), body, map));
       const auto fastest = [](const auto& a, const auto& b, int joints) {
-        double most = 0.0;
+        double maximum = 0.0;
         for (std::size_t i = 0; i <= static_cast<std::size_t>(joints); ++i) {
-          most = std::max(most,
-                          glm::length(rotation_vector(glm::conjugate(a[i].rotation) *
-                                                      b[i].rotation)));
+          maximum = std::max(maximum,
+                             glm::length(rotation_vector(glm::conjugate(a[i].rotation) *
+                                                         b[i].rotation)));
         }
-        return most;
+        return maximum;
       };
       if (!from.empty()) {
         worst = std::max(worst, fastest(to, to_now, count) / fastest(from, from_now, 3));

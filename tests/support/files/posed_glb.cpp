@@ -292,9 +292,9 @@ PosedGlb::Lowest PosedGlb::lowest() const {
       }
       if (part.influences[v].empty() || y_m >= out.y_m) continue;
       out.y_m = y_m;
-      const auto most =
+      const auto maximum =
           std::ranges::max_element(part.influences[v], {}, &Influence::weight);
-      out.node = names_[part.joints[most->joint]];
+      out.node = names_[part.joints[maximum->joint]];
     }
   }
   return out;

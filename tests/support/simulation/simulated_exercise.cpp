@@ -177,10 +177,10 @@ Attitude at_ease(Dice& dice, double heading_rad) {
 }
 
 void add_sway(Exercise& exercise, Dice& dice) {
-  const auto sway = [&](Angle angle, double most) {
+  const auto sway = [&](Angle angle, double maximum) {
     exercise.waves.push_back({index(angle),
                               0.0,
-                              dice.between(0.2, 1.0) * most,
+                              dice.between(0.2, 1.0) * maximum,
                               dice.between(0.2, 0.6),
                               dice.between(0.0, 2.0 * std::numbers::pi),
                               -10.0,

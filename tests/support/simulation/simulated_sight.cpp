@@ -99,7 +99,7 @@ Instant instant_at(const SimulatedScene& scene, const Exercise& exercise, double
 /// A tag in the picture of one camera, without noise.
 struct Sight {
   std::array<glm::dvec2, 4> corners_px{};
-  double shortest_edge_px = 0.0;
+  double min_edge_px = 0.0;
   double side_px = 0.0;
   double facing_rad = 0.0;  ///< 0 is square on.
 };
@@ -128,7 +128,7 @@ std::optional<Sight> look(const Camera& camera,
   const auto corners = corners_of(camera, world_from_tag, size_m);
   if (!corners) return std::nullopt;
   sight.corners_px = *corners;
-  sight.shortest_edge_px = std::numeric_limits<double>::infinity();
+  sight.min_edge_px = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 4; ++i) {
     const glm::dvec2& p = sight.corners_px[i];
     // The white margin is needed, too.
@@ -137,7 +137,7 @@ std::optional<Sight> look(const Camera& camera,
                         p.y < camera.intrinsics.height_px - 4.0;
     if (!inside) return std::nullopt;
     const double edge_px = glm::distance(p, sight.corners_px[(i + 1) % 4]);
-    sight.shortest_edge_px = std::min(sight.shortest_edge_px, edge_px);
+    sight.min_edge_px = std::min(sight.min_edge_px, edge_px);
     sight.side_px += 0.25 * edge_px;
   }
   return sight;
@@ -182,8 +182,8 @@ class Detector {
     if (!sight || time_s < blind_until_s_[i]) return std::nullopt;
     const double blur_px = blur(now, i, tag.tag.size_m);
     // tag36h11 is eight modules wide; a blur of more than one hides its bits.
-    const double modules = blur_px / (sight->shortest_edge_px / 8.0);
-    const double read = (1.0 - kMissed) * read_share(sight->shortest_edge_px) /
+    const double modules = blur_px / (sight->min_edge_px / 8.0);
+    const double read = (1.0 - kMissed) * read_share(sight->min_edge_px) /
                         (1.0 + std::exp((modules - 1.2) / 0.15)) /
                         (1.0 + std::exp((glm::degrees(sight->facing_rad) - 65.0) / 1.5));
     if (chance > read || hidden(now, i)) return std::nullopt;

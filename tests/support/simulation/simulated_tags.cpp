@@ -152,8 +152,8 @@ void add_skin(GluedTag& tag,
   const auto place = place_in_limb(tag.tag.segment);
   if (!place || place->first >= 2 || place->second == 2) return;
   // Skin near the body follows an arm's turn about itself only partly.
-  const double most = place->second == 0 ? 0.35 : 0.15;
-  tag.lag = most * (1.0 - share) * std::min(1.0, slide_m / 0.005);
+  const double maximum = place->second == 0 ? 0.35 : 0.15;
+  tag.lag = maximum * (1.0 - share) * std::min(1.0, slide_m / 0.005);
   tag.lag_angle =
       limb_angle(place->first, place->second == 0 ? LimbAngle::kSpin : LimbAngle::kTwist);
   tag.lag_axis = {1, 0, 0};
@@ -181,11 +181,11 @@ glm::dvec3 next_side(const std::vector<glm::dvec3>& sides,
       dice.between(0.0, static_cast<double>(sides.size()) - 1e-9));
   if (used.empty() || dice.between(0, 1) < 0.3) return sides[any];
   const auto nearest = [&](const glm::dvec3& side) {
-    double most = -1.0;
+    double maximum = -1.0;
     for (const glm::dvec3& other : used) {
-      most = std::max(most, glm::dot(glm::normalize(side), glm::normalize(other)));
+      maximum = std::max(maximum, glm::dot(glm::normalize(side), glm::normalize(other)));
     }
-    return most;
+    return maximum;
   };
   return *std::min_element(
       sides.begin(), sides.end(), [&](const glm::dvec3& a, const glm::dvec3& b) {

@@ -245,13 +245,13 @@ double height_of(const Landmarks& marks) {
 }
 
 double fastest(const std::vector<Landmarks>& frames, double hz) {
-  double most = 0.0;
+  double maximum = 0.0;
   for (std::size_t t = 1; t < frames.size(); ++t) {
     for (const auto& [bone, place] : frames[t]) {
-      most = std::max(most, glm::distance(place, frames[t - 1].at(bone)) * hz);
+      maximum = std::max(maximum, glm::distance(place, frames[t - 1].at(bone)) * hz);
     }
   }
-  return most / height_of(frames.front());
+  return maximum / height_of(frames.front());
 }
 
 double quantile_of(std::vector<double> values, double share) {

@@ -44,10 +44,10 @@ void compare_feet(const std::vector<Landmarks>& source,
     }
     for (std::size_t t = 0; t + run <= apart_deg.size(); ++t) {
       const auto from = apart_deg.begin() + static_cast<std::ptrdiff_t>(t);
-      const double least =
+      const double minimum =
           *std::min_element(from, from + static_cast<std::ptrdiff_t>(run));
-      if (least <= out.foot_yaw_deg) continue;
-      out.foot_yaw_deg = least;
+      if (minimum <= out.foot_yaw_deg) continue;
+      out.foot_yaw_deg = minimum;
       out.foot_yaw_bone = name(foot);
       out.foot_yaw_frame = static_cast<int>(t);
     }

@@ -222,7 +222,7 @@ std::optional<GrossJoint> gross_joint(B joint, const std::vector<JointSample>& s
   for (const JointSample& s : samples) {
     gross.measured_frames += s.source == Source::kMeasured ? 1 : 0;
     run = s.is_gross() ? run + 1 : 0;
-    gross.longest_run = std::max(gross.longest_run, run);
+    gross.max_run = std::max(gross.max_run, run);
     if (!s.is_gross()) continue;
     ++gross.gross_frames;
     if (s.error_m <= gross.worst_m) continue;
@@ -231,7 +231,7 @@ std::optional<GrossJoint> gross_joint(B joint, const std::vector<JointSample>& s
   }
   if (gross.gross_frames == 0) return std::nullopt;
   gross.is_persistent =
-      gross.longest_run > kSpikeRun ||
+      gross.max_run > kSpikeRun ||
       gross.gross_frames > kSpikeShare * static_cast<double>(samples.size());
   return gross;
 }

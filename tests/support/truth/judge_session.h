@@ -43,7 +43,7 @@ struct GrossJoint {
   HumanBone joint{};
   int measured_frames = 0;
   int gross_frames = 0;
-  int longest_run = 0;  ///< Consecutive gross frames.
+  int max_run = 0;  ///< Consecutive gross frames.
   /// More than three consecutive frames, or more than 5 % of the trial's frames. Other
   /// gross frames are spikes.
   bool is_persistent = false;

@@ -27,11 +27,11 @@ double delay_s(std::span<const std::vector<TimedPlace>> joints,
   constexpr double kMax_s = 0.06;
   constexpr double kStep_s = 0.004;
   double best_s = 0.0;
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   for (double delay_s = -kMax_s; delay_s <= kMax_s; delay_s += kStep_s) {
     const double here = spread(delay_s);
-    if (here >= least) continue;
-    least = here;
+    if (here >= minimum) continue;
+    minimum = here;
     best_s = delay_s;
   }
   double low_s = best_s - kStep_s;

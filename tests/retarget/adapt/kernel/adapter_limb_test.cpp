@@ -38,7 +38,7 @@ const std::vector<BodyPoint>& points_on_limbs() {
 
 struct Reach {
   double wanted = 0.0;  ///< Distance from the limb's root over the length of both bones.
-  double least = 0.0;
+  double minimum = 0.0;
 };
 
 Reach reach_of(const Character& body, const Pose& pose, const BodyPoint& point) {
@@ -83,8 +83,9 @@ TEST_P(AdapterLimbs, BringAnyOfTheirPointsToReachableTargetsAtOnce) {
       const Reach reach = reach_of(body, truth, point);
       // Beyond, the body begins to help (adapt_solve.h); another test covers this.
       const bool upper =
-          joint_at(body, point.segment) == limb.upper || reach.least > 0.999;
-      if (!upper && (reach.wanted > 0.87 || reach.wanted < reach.least + 0.13)) continue;
+          joint_at(body, point.segment) == limb.upper || reach.minimum > 0.999;
+      if (!upper && (reach.wanted > 0.87 || reach.wanted < reach.minimum + 0.13))
+        continue;
       ++at_once;
       const glm::dvec3 target = place_of(body, truth, point);
       Constraint wish = contact("point", point.segment, target);

@@ -32,12 +32,12 @@ void expect_no_rise(const Character& body, AdaptOptions options, bool stands) {
     Adapter adapter = make_adapter(body, asked, options);
     Pose out;
     double before = 1e9;
-    for (int most = 1; most <= 25; ++most) {
-      options.max_iterations = most;
+    for (int maximum = 1; maximum <= 25; ++maximum) {
+      options.max_iterations = maximum;
       adapter.set_options(options);
       const AdaptReport report = adapter.adapt(reference, 0.0, out);
       // Single precision over a few metres.
-      ASSERT_LT(report.constraint_error_m, before + 1e-6) << i << " at " << most;
+      ASSERT_LT(report.constraint_error_m, before + 1e-6) << i << " at " << maximum;
       before = report.constraint_error_m;
     }
   }
