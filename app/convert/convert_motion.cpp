@@ -207,10 +207,10 @@ Status write(const ConvertArguments& arguments,
                 ".glb");
 }
 
-void tell(const ConvertArguments& arguments,
-          const FileMotion& read,
-          bool json,
-          Console& console) {
+void report_conversion(const ConvertArguments& arguments,
+                       const FileMotion& read,
+                       bool json,
+                       Console& console) {
   const auto& [skeleton, rate, first_frame, poses] = read.motion;
   const auto bones = std::ranges::count_if(
       skeleton.joints, [](const Joint& joint) { return joint.bone.has_value(); });
@@ -272,7 +272,7 @@ Exit convert_motion(const ConvertArguments& arguments, Console& console) {
   }
   const Status written = write(arguments, *file, console);
   if (!written) return console.fail(written.error());
-  tell(arguments, *file, arguments.json, console);
+  report_conversion(arguments, *file, arguments.json, console);
   return Exit::kOk;
 }
 

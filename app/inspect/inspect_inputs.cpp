@@ -209,14 +209,14 @@ Result<Json> inspect_calibration(const fs::path& file) {
 Result<Json> inspect_subject(const fs::path& file) {
   const auto body = recordings::read_subject(file);
   if (!body) return body.error();
-  Json doubts = Json::array();
-  for (const Finding& warning : body->warnings) doubts.push_back(warning.cause);
+  Json causes = Json::array();
+  for (const Finding& warning : body->warnings) causes.push_back(warning.cause);
   return Json{{"kind", "subject"},
               {"name", body->name},
               {"stature_m", body->stature_m},
               {"leg_length_m", leg_length_m(body->proportions)},
               {"tags", body->tags.size()},
-              {"doubts", doubts}};
+              {"doubts", causes}};
 }
 
 Result<Json> inspect_table(const fs::path& file) {

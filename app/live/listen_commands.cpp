@@ -105,7 +105,7 @@ class Listening {
         time_s = clock_.at_s(frame_.time_s, since_start());
         take(time_s, keep);
       }
-      tell_tracking(console);
+      report_tracking(console);
       if (came == 0) continue;
       if (onward_) pass_on(time_s);
       if (progress) progress(static_cast<int>(frames_), kUnknownTotal);
@@ -119,7 +119,7 @@ class Listening {
 
  private:
   /// Reports on the console when the tracking status of the sender changes.
-  void tell_tracking(Console& console) {
+  void report_tracking(Console& console) {
     const live::VmcStatus& status = receiver_.status();
     const bool is_good = status.loaded && status.tracking;
     if (is_good == is_good_) return;

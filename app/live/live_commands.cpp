@@ -37,7 +37,7 @@ Result<LiveOutputs> open_outputs(const LiveArguments& arguments,
   return outputs;
 }
 
-void tell(const LiveStatistics& figures, Console& console) {
+void print_statistics(const LiveStatistics& figures, Console& console) {
   char text[200];
   std::snprintf(
       text,
@@ -144,7 +144,7 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
   figures->recording.reset();
   figures->takes = takes.finished();
   figures->recording_trouble = takes.trouble();
-  tell(*figures, console);
+  print_statistics(*figures, console);
   if (arguments.json) std::fputs(live_json_text(*figures).c_str(), stdout);
   return exit;
 }

@@ -31,7 +31,7 @@ GuideSetup setup_of(const OpenedLive& live) {
 }
 
 /// Errors (kDevice): the disk.
-Status write_beside_the_old(const std::filesystem::path& path, const Body& body) {
+Status write_next_to_old(const std::filesystem::path& path, const Body& body) {
   std::error_code problem;
   if (std::filesystem::exists(path, problem)) {
     std::filesystem::path before = path;
@@ -57,7 +57,7 @@ LiveGuide::LiveGuide(const OpenedLive& live,
       options_(options),
       console_(console),
       guide_(setup_of(live), options.steps) {
-  if (options_.begin && !act(WizardAction::kStart)) tell();
+  if (options_.begin && !act(WizardAction::kStart)) report_step();
 }
 
 std::optional<std::string> LiveGuide::act(WizardAction action) {
@@ -76,9 +76,9 @@ std::optional<std::string> LiveGuide::act(WizardAction action) {
   return refusal;
 }
 
-void LiveGuide::see(const LiveInstant& instant) {
+void LiveGuide::process(const LiveInstant& instant) {
   now_ = instant.time;
-  guide_.see(instant);
+  guide_.process(instant);
   go_on();
 }
 
@@ -101,14 +101,14 @@ void LiveGuide::end() {
 void LiveGuide::go_on() {
   take_result();
   if (auto material = guide_.take_material()) solve(*std::move(material));
-  tell();
+  report_step();
   if (!options_.by_itself) return;
   if (guide_.is_good()) {
     if (const auto refusal = accept()) console_.warn(*refusal);
   }
   const bool is_unaccepted =
       guide_.step() == WizardStep::kFailed || guide_.step() == WizardStep::kDone;
-  if (is_unaccepted && options_.begin && !guide_.act(WizardAction::kStart)) tell();
+  if (is_unaccepted && options_.begin && !guide_.act(WizardAction::kStart)) report_step();
 }
 
 void LiveGuide::solve(GuideMaterial material) {
@@ -150,7 +150,7 @@ void LiveGuide::take_result() {
 std::optional<std::string> LiveGuide::accept() {
   if (const auto refusal = guide_.act(WizardAction::kAccept)) return refusal;
   MAREY_ASSERT(waiting_);
-  const Status written = write_beside_the_old(live_.subject_file, waiting_->fit.body);
+  const Status written = write_next_to_old(live_.subject_file, waiting_->fit.body);
   if (!written) {
     guide_.refuse_acceptance(written.error().message());
     return written.error().message();
@@ -161,7 +161,7 @@ std::optional<std::string> LiveGuide::accept() {
   has_measured_ = true;
   options_.begin = false;
   console_.say("the body is in " + live_.subject_file.string());
-  tell();
+  report_step();
   return std::nullopt;
 }
 
@@ -170,7 +170,7 @@ std::optional<GuidedBody> LiveGuide::take_body() {
 }
 
 /// Prints a new step at once, and a new text of the same step after kTellEvery_s.
-void LiveGuide::tell() {
+void LiveGuide::report_step() {
   const live::PageWizard& now = guide_.ui_state();
   const bool is_new_step = now.step != shown_step_;
   const bool is_due = !shown_at_ || (now_ && seconds(*now_ - *shown_at_) >= kTellEvery_s);

@@ -42,7 +42,7 @@ class LiveGuide {
   void set_recording(bool on) { options_.is_recording = on; }
   /// Processes one instant. Cost: some microseconds, except for the instant in which a
   /// body is accepted.
-  void see(const LiveInstant& instant);
+  void process(const LiveInstant& instant);
   /// Ends the calibration; no instant may follow. Waits up to a minute for a running
   /// solve. With LiveGuideOptions::by_itself it accepts a good result.
   void end();
@@ -64,7 +64,7 @@ class LiveGuide {
   [[nodiscard]] Result<Solved> solved(const GuideMaterial& material) const;
   void take_result();
   [[nodiscard]] std::optional<std::string> accept();
-  void tell();
+  void report_step();
 
   const OpenedLive& live_;
   LiveGuideOptions options_;

@@ -41,7 +41,7 @@ void LivePage::pose_bodies(const LiveResult& result) {
     if (!is_seen) return;
     // Handles belong to the first avatar.
     const auto handles = figure == 1 ? result.handles : std::span<const HandleState>();
-    const auto* balance = balance_->look(figure, *posture, handles);
+    const auto* balance = balance_->measure(figure, *posture, handles);
     if (balance == nullptr) return;
     one.balance = {balance->centre_of_mass_in_world, balance->support_xz_m};
   };

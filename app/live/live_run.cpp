@@ -105,7 +105,8 @@ class Counting {
     ++figures_.frames;
     if (result.track.state == TrackState::kTracked) ++figures_.tracked;
     if (result.track.state == TrackState::kLost) ++figures_.lost;
-    if (was_lost_ && result.track.state == TrackState::kTracked) ++figures_.found_anew;
+    if (was_lost_ && result.track.state == TrackState::kTracked)
+      ++figures_.relocalizations;
     was_lost_ = result.track.state == TrackState::kLost;
   }
 
@@ -120,7 +121,7 @@ class Counting {
     minute_begin_ = monotonic_now();
   }
 
-  void look_at(const Cameras& cameras, const Groups& groups) {
+  void count_cameras(const Cameras& cameras, const Groups& groups) {
     figures_.cameras.clear();
     for (std::size_t c = 0; c < cameras.size(); ++c) {
       const capture::LiveCameraCounts& counts = cameras[c]->counts();
@@ -150,7 +151,7 @@ class Counting {
 };
 
 /// Reports a change of the tracking state on the console.
-void tell_state(TrackState before, TrackState now, Console& console) {
+void report_state(TrackState before, TrackState now, Console& console) {
   if (before == now) return;
   if (now == TrackState::kTracked) {
     console.say(before == TrackState::kLost ? "the body is back" : "the body is found");
@@ -195,15 +196,15 @@ class Loop {
       } else if (groups.is_over()) {
         break;
       }
-      const bool has_changed = watchdog_.look(monotonic_now(), max_pictures(cameras));
+      const bool has_changed = watchdog_.update(monotonic_now(), max_pictures(cameras));
       if (has_changed || watch.seconds() - last_status_s_ >= kStatusEvery_s) {
         last_status_s_ = watch.seconds();
-        tell(groups, cameras, false);
+        report_status(groups, cameras, false);
       }
     }
     counting_.figures().seconds = watch.seconds();
     if (guide_) guide_->end();
-    tell(groups, cameras, true);
+    report_status(groups, cameras, true);
   }
 
   [[nodiscard]] LiveStatistics& figures() { return counting_.figures(); }
@@ -226,7 +227,7 @@ class Loop {
     watchdog_.on_instant(monotonic_now(), chain_.has_value());
     counting_.add(group, result, taken_up, sending.seconds());
     counting_.add_cameras(group);
-    tell_state(state_, result.track.state, console_);
+    report_state(state_, result.track.state, console_);
     state_ = result.track.state;
     detect_swapped_cameras(result);
     if (watcher_) show(group, result);
@@ -262,7 +263,7 @@ class Loop {
 
   /// Runs the guide, after all packets of the instant were sent.
   void guide(const LiveInstant& instant) {
-    guide_->see(instant);
+    guide_->process(instant);
     auto found = guide_->take_body();
     if (!found) return;
     chain_.emplace(std::move(found->chain));
@@ -298,9 +299,9 @@ class Loop {
     }
   }
 
-  void tell(const Groups& groups, const Cameras& cameras, bool is_end) {
+  void report_status(const Groups& groups, const Cameras& cameras, bool is_end) {
     LiveStatistics& figures = counting_.figures();
-    counting_.look_at(cameras, groups);
+    counting_.count_cameras(cameras, groups);
     warn_of_videos();
     figures.outputs = outputs_.counts();
     figures.flow = watchdog_.flow().flow();

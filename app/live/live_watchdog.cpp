@@ -15,7 +15,7 @@ void LiveWatchdog::on_instant(Timestamp now, bool was_sent) {
   if (was_sent) last_packet_ = now;
 }
 
-void LiveWatchdog::tell(Timestamp now) {
+void LiveWatchdog::report(Timestamp now) {
   if (is_behind()) {
     last_trouble_ = now;
     if (!has_warned_) console_.warn(flow_.text());
@@ -26,11 +26,11 @@ void LiveWatchdog::tell(Timestamp now) {
   }
 }
 
-bool LiveWatchdog::look(Timestamp now, long pictures) {
+bool LiveWatchdog::update(Timestamp now, long pictures) {
   const Flow before = flow_.flow();
-  const Flow flow = flow_.look(now, pictures);
+  const Flow flow = flow_.update(now, pictures);
   const bool has_changed = flow != before;
-  tell(now);
+  report(now);
   if (flow == Flow::kSteady || !last_packet_) return has_changed;
   if (has_changed || seconds(now - *last_packet_) >= kRepeat_s) {
     outputs_.send_not_tracking();

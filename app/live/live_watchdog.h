@@ -26,14 +26,14 @@ class LiveWatchdog {
 
   /// Records that an instant was solved; `was_sent`: its packets were sent.
   void on_instant(Timestamp now, bool was_sent);
-  /// Calls LiveFlow::look(). Returns true if the flow has changed.
-  bool look(Timestamp now, long pictures);
+  /// Calls LiveFlow::update(). Returns true if the flow has changed.
+  bool update(Timestamp now, long pictures);
 
   [[nodiscard]] const LiveFlow& flow() const { return flow_; }
   [[nodiscard]] bool is_behind() const { return flow_.flow() != Flow::kSteady; }
 
  private:
-  void tell(Timestamp now);
+  void report(Timestamp now);
 
   LiveFlow flow_;
   LiveOutputs& outputs_;

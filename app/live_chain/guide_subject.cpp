@@ -157,9 +157,9 @@ void SubjectGuide::fail(const std::string& why) {
   has_material_ = false;
 }
 
-void SubjectGuide::see(const LiveInstant& instant) {
+void SubjectGuide::process(const LiveInstant& instant) {
   if (step() != WizardStep::kStand && step() != WizardStep::kMove) return;
-  look(instant);
+  update_visible_tags(instant);
   if (step() == WizardStep::kStand) {
     add_standing(instant);
   } else {
@@ -180,7 +180,7 @@ void SubjectGuide::end() {
 }
 
 /// Updates the visible tags and their positions in the pictures.
-void SubjectGuide::look(const LiveInstant& instant) {
+void SubjectGuide::update_visible_tags(const LiveInstant& instant) {
   std::fill(now_.begin(), now_.end(), 0);
   for (const CameraTags& view : instant.views) {
     const std::size_t c = index(view.camera);

@@ -60,7 +60,7 @@ class SubjectGuide {
   /// nullopt.
   [[nodiscard]] std::optional<std::string> act(live::WizardAction action);
   /// Processes one instant. The cameras of its views are indices into setup.cameras.
-  void see(const LiveInstant& instant);
+  void process(const LiveInstant& instant);
   /// Ends the input. Continues to the solve if the detections suffice, else fails.
   void end();
 
@@ -81,7 +81,7 @@ class SubjectGuide {
   void begin_move();
   void begin_solve();
   void fail(const std::string& why);
-  void look(const LiveInstant& instant);
+  void update_visible_tags(const LiveInstant& instant);
   void add_standing(const LiveInstant& instant);
   void move(const LiveInstant& instant);
   void keep(const LiveInstant& instant, std::vector<CameraDetections>& out) const;

@@ -33,9 +33,9 @@ void LiveBalance::step(const Pose& performer, double since_last_s) {
   stance_.step(body->map, body->world_from_joint, since_last_s);
 }
 
-const retarget::BalanceFrame* LiveBalance::look(std::size_t body,
-                                                const Pose& posture,
-                                                std::span<const HandleState> handles) {
+const retarget::BalanceFrame* LiveBalance::measure(std::size_t body,
+                                                   const Pose& posture,
+                                                   std::span<const HandleState> handles) {
   MAREY_ASSERT(body < bodies_.size());
   if (!bodies_.front() || !bodies_[body]) return nullptr;
   Body& of = *bodies_[body];

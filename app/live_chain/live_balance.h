@@ -23,7 +23,7 @@ namespace marey::app {
 /// supporting feet of the performer, which are detected from its poses.
 ///
 /// The same poses and time steps give bit-identical results. Cost: some microseconds per
-/// body; no allocation after the first look() at every body.
+/// body; no allocation after the first measure() of every body.
 class LiveBalance {
  public:
   /// `bodies` is the performer, then the avatars. Bodies that are not humanoid or have no
@@ -41,7 +41,7 @@ class LiveBalance {
   }
   /// Returns the balance of one body in this pose, or nullptr if it is unknown. A foot
   /// with an active handle does not support. Valid until the next call for this body.
-  [[nodiscard]] const retarget::BalanceFrame* look(
+  [[nodiscard]] const retarget::BalanceFrame* measure(
       std::size_t body, const Pose& posture, std::span<const HandleState> handles = {});
 
  private:

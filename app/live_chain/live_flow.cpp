@@ -50,7 +50,7 @@ Flow LiveFlow::flow_at(Timestamp now) const {
                                                            : Flow::kSteady;
 }
 
-void LiveFlow::word(Timestamp now) {
+void LiveFlow::update_text(Timestamp now) {
   text_.clear();
   if (flow_ == Flow::kSteady) return;
   char head[160];
@@ -73,7 +73,7 @@ void LiveFlow::word(Timestamp now) {
           "check that every camera streams.";
 }
 
-Flow LiveFlow::look(Timestamp now, long pictures) {
+Flow LiveFlow::update(Timestamp now, long pictures) {
   if (flow_ != Flow::kSteady) troubled_s_ += seconds(now - last_look_);
   last_look_ = now;
   samples_.push_back({now, pictures, instants_});
@@ -81,7 +81,7 @@ Flow LiveFlow::look(Timestamp now, long pictures) {
     samples_.pop_front();
   }
   flow_ = flow_at(now);
-  word(now);
+  update_text(now);
   return flow_;
 }
 

@@ -37,10 +37,11 @@ class LiveFlow {
   void on_instant(Timestamp now);
   /// Updates and returns the flow. `pictures` is the maximum over the cameras of pictures
   /// so far, including those lost in transfer; it never decreases.
-  Flow look(Timestamp now, long pictures);
+  Flow update(Timestamp now, long pictures);
 
   [[nodiscard]] Flow flow() const { return flow_; }
-  /// Returns the message about the flow as of the last look(); empty while it is steady.
+  /// Returns the message about the flow as of the last update(); empty while it is
+  /// steady.
   [[nodiscard]] const std::string& text() const { return text_; }
   /// Returns the total time in which poses did not keep up. [s]
   [[nodiscard]] double troubled_s() const { return troubled_s_; }
@@ -52,7 +53,7 @@ class LiveFlow {
     long instants = 0;
   };
   [[nodiscard]] Flow flow_at(Timestamp now) const;
-  void word(Timestamp now);
+  void update_text(Timestamp now);
 
   double stopped_after_s_;
   std::deque<Sample> samples_;  ///< In the window, and the last one before it.

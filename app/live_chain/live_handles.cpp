@@ -115,7 +115,7 @@ void LiveHandles::stand(std::span<const RigidTransform> world_from_joint,
 }
 
 /// Updates the states: inactive handles are at the positions of their joints.
-void LiveHandles::look() {
+void LiveHandles::update_states() {
   const std::span<const RigidTransform> joints = adapter_.world_from_joint();
   busy_ = false;
   for (std::size_t i = 0; i < held_.size(); ++i) {
@@ -146,7 +146,7 @@ void LiveHandles::step(std::span<const RigidTransform> world_from_joint,
   follow(since_last_s);
   stand(world_from_joint, standing);
   (void)adapter_.adapt(posture, time_s_, adapted_);
-  look();
+  update_states();
   if (!busy_) return;  // All handles have faded out.
   posture.root_in_world = adapted_.root_in_world;
   std::ranges::copy(adapted_.parent_from_joint, posture.parent_from_joint.begin());

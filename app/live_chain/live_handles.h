@@ -84,7 +84,7 @@ class LiveHandles {
   void follow(double since_last_s);
   void stand(std::span<const RigidTransform> world_from_joint,
              const std::array<retarget::StandingFoot, 2>& standing);
-  void look();
+  void update_states();
 
   retarget::Adapter adapter_;
   std::vector<Held> held_;  ///< By handle.

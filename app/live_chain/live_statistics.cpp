@@ -47,7 +47,7 @@ std::string live_json_text(const LiveStatistics& figures) {
   ordered_json out{{"frames", figures.frames},
                    {"tracked", figures.tracked},
                    {"lost", figures.lost},
-                   {"found_anew", figures.found_anew},
+                   {"found_anew", figures.relocalizations},
                    {"seconds", rounded(figures.seconds)},
                    {"behind_s", rounded(figures.behind_s)},
                    {"frame_to_packet", of(times.frame_to_packet)},

@@ -64,7 +64,7 @@ struct LiveStatistics {
   long frames = 0;     ///< Solved instants.
   long tracked = 0;    ///< Solved instants with the body tracked.
   long lost = 0;       ///< Solved instants with the body lost.
-  int found_anew = 0;  ///< Number of relocalizations of a lost body.
+  int relocalizations = 0;  ///< Number of relocalizations of a lost body.
   double seconds = 0.0;
   LiveTimes times;
   std::vector<LiveCameraFigures> cameras;

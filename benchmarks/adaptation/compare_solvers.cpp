@@ -48,7 +48,7 @@ void time_round(const std::vector<PostureTask>& tasks, Record& record) {
   record.p95_us.push_back(quantile(best_us, 0.95));
 }
 
-void judge(const Contest& contest, Record& record) {
+void measure_errors(const Contest& contest, Record& record) {
   PostureSolver& solver = *record.contender.solver;
   Pose found;
   for (const PostureTask& task : contest.tasks) {
@@ -107,7 +107,7 @@ ResultTable compare_solvers(const Contest& contest, std::vector<Contender> conte
   for (Contender& contender : contenders) {
     records.push_back({std::move(contender), {}, {}, {}, {}, {}});
   }
-  for (Record& record : records) judge(contest, record);
+  for (Record& record : records) measure_errors(contest, record);
   for (int round = 0; round < kRounds; ++round) {
     for (Record& record : records) time_round(contest.tasks, record);
   }

@@ -281,16 +281,16 @@ int measure(const Arguments& arguments) {
     ask_pairs(clip, pairs);
   }
   std::vector<ResultTable> tables{std::move(per_clip)};
-  const auto tell =
+  const auto print_row =
       [&](const std::string& id, const std::string& title, const AllFigures& all) {
         tables.push_back(table_of(id, title));
         for (std::size_t a = 0; a < all.size(); ++a) {
           tables.back().rows.push_back(row_of(kAnswerers[a].name, all[a]));
         }
       };
-  tell("balance_alone", "a wrist, the arm reaches alone", alone);
-  tell("balance_helped", "a wrist, the arm alone does not reach", helped);
-  tell("balance_pairs", "wrists and feet of a captured far posture", pairs);
+  print_row("balance_alone", "a wrist, the arm reaches alone", alone);
+  print_row("balance_helped", "a wrist, the arm alone does not reach", helped);
+  print_row("balance_pairs", "wrists and feet of a captured far posture", pairs);
   for (const ResultTable& table : tables) print_table(table);
   if (!arguments.json) return 0;
   const Status written = write_tables(*arguments.json, tables);

@@ -43,7 +43,7 @@ void count_since(long before, benchmark::State& state) {
       static_cast<double>(state.iterations());
 }
 
-void tell_and_encode(benchmark::State& state) {
+void pack_and_encode(benchmark::State& state) {
   Scene s;
   VmcEncoder encoder = *VmcEncoder::make();
   (void)encoder.encode(s.time(), s.sent);
@@ -54,7 +54,7 @@ void tell_and_encode(benchmark::State& state) {
   }
   count_since(before, state);
 }
-BENCHMARK(tell_and_encode);
+BENCHMARK(pack_and_encode);
 
 /// Runs both ends in one thread: the total cost of a frame, including system calls.
 void send_and_receive(benchmark::State& state) {

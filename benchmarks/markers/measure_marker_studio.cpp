@@ -100,7 +100,7 @@ Keeping keeping(const Studio& studio,
 /// Assigns every marker to the bone with the least variance. Computes the RMS deviation
 /// of the markers, and the shift of the whole file that minimizes it (linear least
 /// squares).
-void look(const Studio& studio, const MarkerTracks& tracks, Alignment& a) {
+void assign_bones(const Studio& studio, const MarkerTracks& tracks, Alignment& a) {
   Distances strays;
   glm::dmat3 normal(0.0);
   glm::dvec3 right(0.0);
@@ -151,7 +151,7 @@ Alignment align_files(const Studio& studio, const MarkerTracks& tracks) {
   Alignment best;
   const auto try_one = [&](const glm::dmat3& map, int later) {
     Alignment one{map, later};
-    look(studio, tracks, one);
+    assign_bones(studio, tracks, one);
     if (one.stray_m < best.stray_m) best = one;
   };
   for (const glm::dmat3& map : axis_maps()) try_one(map, 0);
@@ -180,7 +180,7 @@ constexpr std::array kCompared{
     Compared{B::kRightHand, "rwrist"},
 };
 // Joints that are printed but not pooled: other body models place them elsewhere.
-constexpr std::array kTold{
+constexpr std::array kReported{
     Compared{B::kLeftHand, "lhand"},
     Compared{B::kRightHand, "rhand"},
     Compared{B::kLeftToes, "ltoes"},
@@ -336,7 +336,7 @@ int measure_studio(const std::filesystem::path& mocap) {
   };
   sum("pooled", pooled);
   sum("pooled without hands", but_hands);
-  for (const Compared& one : kTold) {
+  for (const Compared& one : kReported) {
     print(one, compare(one, solved.estimate.motion, studio, alignment));
   }
   compare_lengths(studio, person.fit.body);

@@ -91,7 +91,7 @@ void measure_steps(const MarkerTracks& tracks) {
       (known == 2 ? measured : known == 1 ? edges : inside).push_back(step);
     }
   }
-  const auto tell = [](const char* what, std::vector<double>& steps) {
+  const auto print_row = [](const char* what, std::vector<double>& steps) {
     const double median_m = quantile_of(steps, 0.5);
     const double p99_m = quantile_of(steps, 0.99);
     std::printf(
@@ -103,9 +103,9 @@ void measure_steps(const MarkerTracks& tracks) {
         1e3 * p99_m,
         1e3 * quantile_of(steps, 1.0));
   };
-  tell("measured", measured);
-  tell("at a gap's edge", edges);
-  tell("within gaps", inside);
+  print_row("measured", measured);
+  print_row("at a gap's edge", edges);
+  print_row("within gaps", inside);
 }
 
 }  // namespace

@@ -60,8 +60,8 @@ double worst_drift_mm(const Motion& motion,
                       const retarget::BodyMap& map,
                       const retarget::Contacts& contacts) {
   double worst_mm = 0.0;
-  const auto look = [&](std::optional<JointIndex> joint,
-                        const std::vector<retarget::FrameInterval>& runs) {
+  const auto add_slide = [&](std::optional<JointIndex> joint,
+                             const std::vector<retarget::FrameInterval>& runs) {
     if (!joint) return;
     for (const retarget::FrameInterval& run : runs) {
       glm::dvec3 began(0.0);
@@ -78,8 +78,8 @@ double worst_drift_mm(const Motion& motion,
   for (int side = 0; side < 2; ++side) {
     const retarget::FootContacts& foot = contacts.feet[static_cast<std::size_t>(side)];
     const HumanBone toes = side == 0 ? HumanBone::kLeftToes : HumanBone::kRightToes;
-    look(map.leg(side).end, foot.heel);
-    look(map.joint_of[index(toes)], foot.ball);
+    add_slide(map.leg(side).end, foot.heel);
+    add_slide(map.joint_of[index(toes)], foot.ball);
   }
   return worst_mm;
 }

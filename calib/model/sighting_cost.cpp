@@ -200,7 +200,7 @@ struct SightingCost::View {
   Pixels weight = Pixels::Zero();
 };
 
-bool SightingCost::see(const double* const* blocks, View& view) const {
+bool SightingCost::project_target(const double* const* blocks, View& view) const {
   const Places at = places();
   view.target = target_pose(blocks);
   const double* camera = blocks[1];
@@ -332,7 +332,7 @@ bool SightingCost::Evaluate(const double* const* blocks,
                             double* residuals,
                             double** jacobians) const {
   View view;
-  if (!see(blocks, view)) return false;
+  if (!project_target(blocks, view)) return false;
   for (int i = 0; i < 2 * sighting_.count; ++i) {
     const BoardCorner& corner = sighting_.corners[static_cast<std::size_t>(i / 2)];
     residuals[i] = (view.pixels[i] - corner.pixel_px[i % 2]) * view.weight[i];

@@ -86,7 +86,7 @@ class SightingCost final : public ceres::CostFunction {
 
   [[nodiscard]] Places places() const;
   [[nodiscard]] TargetPose target_pose(const double* const* blocks) const;
-  [[nodiscard]] bool see(const double* const* blocks, View& view) const;
+  [[nodiscard]] bool project_target(const double* const* blocks, View& view) const;
   template <class OfCorner>
   void put(const View& view,
            double* jacobian,

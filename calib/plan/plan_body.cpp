@@ -86,8 +86,8 @@ class BodyPlanner {
       const double travelled_m =
           (f - 0.5 * (count_of_frames - 1)) * kSpeed_m_s / options_.rate_hz;
       const double phase = 2.0 * std::numbers::pi * travelled_m / kStride_m + heading_rad;
-      frames.push_back(
-          see(walking_body(body_, middle_m + travelled_m * way, heading_rad, phase)));
+      frames.push_back(seen_body(
+          walking_body(body_, middle_m + travelled_m * way, heading_rad, phase)));
       information.push_back(std::move(frames.back().information));
     }
     const auto uncertainties = solve_chain(information, step_prior({options_.rate_hz}));
@@ -104,7 +104,7 @@ class BodyPlanner {
     std::vector<double> errors_m;
     for (int k = 0; k < options_.headings; ++k) {
       const double heading_rad = 2.0 * std::numbers::pi * k / options_.headings;
-      const SeenBody seen = see(standing_body(body_, floor_m, heading_rad));
+      const SeenBody seen = seen_body(standing_body(body_, floor_m, heading_rad));
       for (const HumanBone bone : joints_) {
         out.measured_share += seen.measured[index(bone)] ? 1.0 : 0.0;
       }
@@ -153,7 +153,7 @@ class BodyPlanner {
            seen.measured[index(HumanBone::kUpperChest)];
   }
 
-  SeenBody see(const BodyPlace& place) const {
+  SeenBody seen_body(const BodyPlace& place) const {
     SeenBody out;
     const auto views = views_of(cameras_, body_, place, options_.tags);
     out.jacobian = posture_jacobian(body_, place);

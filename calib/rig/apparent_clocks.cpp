@@ -48,17 +48,17 @@ std::optional<Row> row_of(const RigModel& model,
   const glm::dvec3 p_in_camera = camera_from_world * (world_from_target * p_in_target);
   Eigen::Matrix<double, 2, 3> by_point;
   constexpr double kStep_m = 1e-5;
-  const auto see = [&](const glm::dvec3& p) -> std::optional<glm::dvec2> {
+  const auto project_at = [&](const glm::dvec3& p) -> std::optional<glm::dvec2> {
     glm::dvec2 pixel(0.0);
     if (!project(camera.intrinsics, &p.x, &pixel.x)) return std::nullopt;
     return pixel;
   };
-  const auto pixel = see(p_in_camera);
+  const auto pixel = project_at(p_in_camera);
   if (!pixel) return std::nullopt;
   for (int i = 0; i < 3; ++i) {
     glm::dvec3 step(0.0);
     step[i] = kStep_m;
-    const auto ahead = see(p_in_camera + step);
+    const auto ahead = project_at(p_in_camera + step);
     if (!ahead) return std::nullopt;
     const glm::dvec2 slope = (*ahead - *pixel) / kStep_m;
     by_point.col(i) << slope.x, slope.y;

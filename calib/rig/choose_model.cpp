@@ -108,9 +108,9 @@ LensModel choose_lens(const FirstModel& first_model) {
     refine.covariance = false;
     RigModel even = half_of(first->model, 0);
     if (!refine_rig(even, refine)) continue;
-    auto judged = held_out_model(even, half_of(first->model, 1));
-    if (!judged || (best && !predicts_better(*judged, *best))) continue;
-    best = std::move(judged);
+    auto tested = held_out_model(even, half_of(first->model, 1));
+    if (!tested || (best && !predicts_better(*tested, *best))) continue;
+    best = std::move(tested);
     chosen = lens;
   }
   return chosen;

@@ -135,14 +135,14 @@ RigModel half_in_time(const RigModel& model, int half) {
 }
 
 std::optional<RigModel> held_out_model(const RigModel& solved, const RigModel& held_out) {
-  RigModel judged = held_out;
-  judged.cameras = solved.cameras;
-  for (std::size_t t = 0; t < judged.targets.size(); ++t) {
-    judged.targets[t].warp_m = solved.targets[t].warp_m;
-    judged.targets[t].bends = solved.targets[t].bends;
+  RigModel tested = held_out;
+  tested.cameras = solved.cameras;
+  for (std::size_t t = 0; t < tested.targets.size(); ++t) {
+    tested.targets[t].warp_m = solved.targets[t].warp_m;
+    tested.targets[t].bends = solved.targets[t].bends;
   }
-  if (!refine_rig(judged, places_only())) return std::nullopt;
-  return judged;
+  if (!refine_rig(tested, places_only())) return std::nullopt;
+  return tested;
 }
 
 bool predicts_better(const RigModel& model, const RigModel& simpler) {

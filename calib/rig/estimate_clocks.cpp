@@ -33,9 +33,9 @@ struct SeenTag {
 /// By tag, in the order of cameras and frames.
 using SeenTags = std::map<TagId, std::vector<SeenTag>>;
 
-SeenTags look(std::span<const Camera> cameras,
-              std::span<const CameraDetections> detections,
-              const std::map<TagId, double>& sizes_m) {
+SeenTags seen_tags(std::span<const Camera> cameras,
+                   std::span<const CameraDetections> detections,
+                   const std::map<TagId, double>& sizes_m) {
   SeenTags seen;
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     const RigidTransform world_from_camera = inverse(cameras[c].camera_from_world);
@@ -231,7 +231,7 @@ std::optional<std::vector<SolvedClock>> estimate_clocks(
     const ClockOptions& options) {
   MAREY_ASSERT(cameras.size() == detections.size());
   if (cameras.empty()) return std::nullopt;
-  const SeenTags seen = look(cameras, detections, sizes_m);
+  const SeenTags seen = seen_tags(cameras, detections, sizes_m);
   const std::vector<double> offsets_s =
       first_offsets(seen, detections, options.max_offset_s);
   RigModel model;

@@ -45,7 +45,7 @@ class TagPlacer {
   explicit TagPlacer(RigModel& model) : model_(model), placed_(model.cameras.size()) {}
 
   std::vector<bool> run() {
-    look();
+    collect_seen();
     join_cameras();
     for (std::size_t t = 0; t < model_.targets.size(); ++t) {
       if (model_.targets[t].stays || model_.targets[t].pieces.empty()) continue;
@@ -60,7 +60,7 @@ class TagPlacer {
   }
 
  private:
-  void look();
+  void collect_seen();
   void join_cameras();
   void lay_out(std::size_t target);
   void place_target(std::size_t target);
@@ -76,7 +76,7 @@ class TagPlacer {
   std::map<Place, std::vector<SeenPose>> seen_;  ///< For tags of known size.
 };
 
-void TagPlacer::look() {
+void TagPlacer::collect_seen() {
   for (const Sighting& sighting : model_.sightings) {
     const RigidTarget& target = model_.targets[sighting.target];
     if (target.pieces.empty() || !target.pieces[sighting.piece].is_size_known) continue;
@@ -203,7 +203,7 @@ void TagPlacer::lay_out(std::size_t t) {
       seen_.clear();
     }
   }
-  if (seen_.empty()) look();
+  if (seen_.empty()) collect_seen();
 }
 
 void TagPlacer::place_target(std::size_t t) {

@@ -27,8 +27,8 @@ constexpr int kStretch = 6;         ///< Consecutive frames, to compute velociti
 using Seen = std::map<std::size_t, const TagDetection*>;
 using SeenTags = std::map<std::pair<TagId, int>, Seen>;
 
-SeenTags look(std::span<const CameraDetections> detections,
-              const std::map<TagId, double>& sizes_m) {
+SeenTags seen_tags(std::span<const CameraDetections> detections,
+                   const std::map<TagId, double>& sizes_m) {
   SeenTags seen;
   for (std::size_t c = 0; c < detections.size(); ++c) {
     for (const FrameDetections& frame : detections[c].frames) {
@@ -167,7 +167,7 @@ RigModel unconstrained_tag_model(const UnconstrainedTags& tags,
     one.world_from_camera = inverse(camera.camera_from_world);
     model.cameras.push_back(one);
   }
-  const SeenTags seen = look(detections, *tags.sizes_m);
+  const SeenTags seen = seen_tags(detections, *tags.sizes_m);
   if (seen.size() < kMin) return model;
   std::map<TagId, std::size_t> target_of;
   for (const auto& [key, views] : seen) {

@@ -92,7 +92,7 @@ Result<std::optional<TagTracker>> tracker_of(const DetectVideosOptions& options)
   return std::optional(std::move(*tracker));
 }
 
-FrameDetections look(const GrayFrame& frame, Job& job) {
+FrameDetections detect_frame(const GrayFrame& frame, Job& job) {
   FrameDetections found{frame.index, {}};
   if (job.tracker) found.tags = job.tracker->track(frame);
   if (job.board) found.points = job.board->find(frame);
@@ -167,7 +167,7 @@ Status run_job(Job& job, SharedProgress& progress, const Stop& stop) {
       ++job.found.damaged_frames;
       job.found.frames.push_back({frame.index, {}});
     } else {
-      job.found.frames.push_back(look(frame, job));
+      job.found.frames.push_back(detect_frame(frame, job));
     }
     progress.one_more();
   }

@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* word(fs::file_type type) {
+const char* kind_of(fs::file_type type) {
   switch (type) {
     case fs::file_type::fifo:
       return "pipe";
@@ -42,7 +42,7 @@ Status check_input_file(const fs::path& path, const std::string& name) {
   }
   if (!fs::is_regular_file(status)) {
     return bad_input(where,
-                     std::string("this is a ") + word(status.type()) + ", not a file",
+                     std::string("this is a ") + kind_of(status.type()) + ", not a file",
                      "write its data to a file, and use that file");
   }
   return Done{};

@@ -40,7 +40,7 @@ class Members {
   }
 
   std::string id(const char* name = "id") {
-    std::string text = word(name);
+    std::string text = text_of(name);
     if (cause_.empty() && (text.empty() || text.size() > kMaxIdBytes)) {
       return wrong(name, "1 to 200 bytes long", std::string());
     }
@@ -80,7 +80,7 @@ class Members {
   /// Returns the value of the member's word in `words`.
   template <class Enum, std::size_t N>
   Enum one_of(const char* name, const std::pair<const char*, Enum> (&words)[N]) {
-    const std::string value_text = word(name);
+    const std::string value_text = text_of(name);
     std::string choice;
     for (const auto& [text, value] : words) {
       if (value_text == text) return value;
@@ -89,7 +89,7 @@ class Members {
     return wrong(name, ("one of " + choice).c_str(), words[0].second);
   }
 
-  std::string word(const char* name) {
+  std::string text_of(const char* name) {
     const Json* value = find(name);
     if (value == nullptr) return {};
     return value->is_string() ? value->get<std::string>()
@@ -159,7 +159,7 @@ Result<PageRequest> read_page_request(std::string_view text) {
   const Json message = Json::parse(text, nullptr, /*allow_exceptions=*/false);
   if (!message.is_object()) return refused("it is not a JSON object");
   Members members(message);
-  const std::string type = members.word("type");
+  const std::string type = members.text_of("type");
   if (!members.cause().empty()) return refused(members.cause());
   std::optional<PageRequest> request = of_type(type, members);
   if (!request) return refused("its type is unknown");

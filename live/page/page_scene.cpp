@@ -9,7 +9,7 @@
 namespace marey::live {
 namespace {
 
-const char* word(PageSkeletonKind kind) {
+const char* name(PageSkeletonKind kind) {
   switch (kind) {
     case PageSkeletonKind::kPerformer:
       return "performer";
@@ -21,7 +21,7 @@ const char* word(PageSkeletonKind kind) {
   return "motion";
 }
 
-const char* word(PageConstraintKind kind) {
+const char* name(PageConstraintKind kind) {
   switch (kind) {
     case PageConstraintKind::kPosition:
       return "position";
@@ -56,7 +56,7 @@ PageJson skin_object(const std::optional<PageSkin>& skin) {
 
 PageJson skeleton_object(const PageSkeleton& skeleton) {
   return {{"name", skeleton.name},
-          {"kind", word(skeleton.kind)},
+          {"kind", name(skeleton.kind)},
           {"joints", array_of(skeleton.skeleton.joints, joint_object)},
           {"skin", skin_object(skeleton.skin)},
           {"offset_m", to_json(skeleton.offset_m)},
@@ -79,7 +79,7 @@ PageJson camera_object(const PageCamera& camera) {
 PageJson constraint_object(const PageConstraint& constraint) {
   PageJson object{{"id", constraint.id},
                   {"skeleton", constraint.skeleton},
-                  {"kind", word(constraint.kind)},
+                  {"kind", name(constraint.kind)},
                   {"active", constraint.active},
                   {"p_in_world", to_json(constraint.p_in_world)},
                   {"draggable", constraint.draggable}};

@@ -7,7 +7,7 @@
 namespace marey::live {
 namespace {
 
-const char* word(PageSubject subject) {
+const char* name(PageSubject subject) {
   switch (subject) {
     case PageSubject::kWaiting:
       return "waiting";
@@ -25,7 +25,7 @@ const char* word(PageSubject subject) {
   return "waiting";
 }
 
-const char* word(PageCameraState state) {
+const char* name(PageCameraState state) {
   switch (state) {
     case PageCameraState::kStreaming:
       return "streaming";
@@ -45,7 +45,7 @@ PageJson stage_object(const PageStage& stage) {
 
 PageJson camera_status_object(const PageCameraStatus& camera) {
   return {{"name", camera.name},
-          {"state", word(camera.state)},
+          {"state", name(camera.state)},
           {"frames", camera.frames},
           {"dropped", camera.dropped},
           {"tags", camera.tags},
@@ -72,7 +72,7 @@ std::string status_json(const PageStatus& status) {
   return in_one_line(
       {{"type", "status"},
        {"clock_s", status.clock_s},
-       {"subject", word(status.subject)},
+       {"subject", name(status.subject)},
        {"warnings", status.warnings},
        {"frame", status.frame},
        {"rate_hz", status.rate_hz},

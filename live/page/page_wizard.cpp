@@ -10,7 +10,7 @@
 namespace marey::live {
 namespace {
 
-const char* word(WizardStep step) {
+const char* name(WizardStep step) {
   switch (step) {
     case WizardStep::kIdle:
       return "idle";
@@ -51,7 +51,7 @@ double WizardCamera::coverage() const {
 
 PageJson wizard_object(const PageWizard& wizard) {
   return {{"type", "wizard"},
-          {"step", word(wizard.step)},
+          {"step", name(wizard.step)},
           {"title", wizard.title},
           {"text", wizard.text},
           {"progress", wizard.progress},

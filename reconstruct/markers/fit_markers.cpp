@@ -343,7 +343,7 @@ MarkersFit Fit::result() {
 }
 
 Result<MarkersFit> Fit::run(const Progress& progress) {
-  const auto tell = [&](int done) {
+  const auto report_step = [&](int done) {
     if (progress) progress(done, 4);
   };
   const auto no_body = [] {
@@ -363,24 +363,24 @@ Result<MarkersFit> Fit::run(const Progress& progress) {
                      "no frame shows six markers whose places are known",
                      "check the labels with `marey inspect FILE`");
   }
-  tell(1);
+  report_step(1);
   refine_stature();
   pose_snapshots(bundle_.model, model_labels_, snapshots_);
   place_candidates();
   rms_m_ = measure_strays(snapshots_, model_labels_, bundle_.model);
   if (!bundle(kInstants, 15, false)) return no_body();
-  tell(2);
+  report_step(2);
   pose_snapshots(bundle_.model, model_labels_, snapshots_);
   rms_m_ = measure_strays(snapshots_, model_labels_, bundle_.model);
   move_misplaced();
   if (used_.size() < kMinLabels || !bundle(kInstants, 15, false)) return no_body();
-  tell(3);
+  report_step(3);
   pose_snapshots(bundle_.model, model_labels_, snapshots_);
   rms_m_ = measure_strays(snapshots_, model_labels_, bundle_.model);
   if (!bundle(kInstants, 20, true)) return no_body();
   pose_snapshots(bundle_.model, model_labels_, snapshots_);
   rms_m_ = measure_strays(snapshots_, model_labels_, bundle_.model);
-  tell(4);
+  report_step(4);
   return result();
 }
 

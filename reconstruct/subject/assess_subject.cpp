@@ -22,7 +22,7 @@ namespace {
 constexpr int kMinSightings = 10;
 // For a tag at its right place, 86 % and more of the sightings are explained in simulated
 // sessions, and the median square is below 1.6 times its expectation.
-constexpr int kMinToJudge = 20;
+constexpr int kMinAssessedSightings = 20;
 constexpr double kMinExplainedTags = 0.7;
 constexpr double kMaxRatioOfMedian = 4.0;
 // Half squares by which one hypothesis must beat another if all sightings were
@@ -101,7 +101,7 @@ void assess_sightings(const SubjectBundle& bundle,
   for (const TagEvidence& e : evidence.tags) {
     const bool is_explained =
         e.explained_share >= kMinExplainedTags && e.median_ratio <= kMaxRatioOfMedian;
-    if (e.sightings < kMinToJudge || is_explained) continue;
+    if (e.sightings < kMinAssessedSightings || is_explained) continue;
     const TagOnSegment& tag = bundle.model.tags[e.tag];
     const std::string how =
         e.explained_share < kMinExplainedTags

@@ -202,7 +202,7 @@ struct LocatedTrials {
 Result<SubjectFit> fit_located(const SubjectPrior& prior,
                                std::span<const Camera> cameras,
                                const LocatedTrials& located,
-                               const Progress& tell,
+                               const Progress& report_step,
                                SubjectEvidence& evidence) {
   const auto& [trials, clusters, stood, moved] = located;
   const Proportions average = average_proportions(prior.stature_m);
@@ -233,13 +233,13 @@ Result<SubjectFit> fit_located(const SubjectPrior& prior,
   add_frames(trials[0], stood, still, true, *frames, bundle);
   add_frames(trials[1], moved, lively, false, *frames, bundle);
   keep_sighted(bundle);
-  tell(2, kSteps);
+  report_step(2, kSteps);
   if (still.empty() || lively.size() < kMinMovingFrames ||
       !refine_subject(cameras, bundle, evidence)) {
     return unfitted();
   }
   measure(bundle, cameras);
-  tell(3, kSteps);
+  report_step(3, kSteps);
   if (!refine_slides(bundle, cameras)) return unfitted();
   evidence.seen_twice_share = seen_twice_share(trials[1], prior.tags);
   evidence.located_frames = located_frames(trials[1], prior.tags, cameras);
@@ -249,7 +249,7 @@ Result<SubjectFit> fit_located(const SubjectPrior& prior,
     if (!refine_slides(bundle, cameras)) return unfitted();
   }
   if (!fill_sigmas(bundle, cameras)) return unfitted();
-  tell(kSteps, kSteps);
+  report_step(kSteps, kSteps);
   SubjectFit fit = to_fit(prior, bundle, evidence, average);
   if (const Status ok = check_size(fit.limb_ratio, prior.stature_m); !ok) {
     return ok.error();
@@ -280,23 +280,23 @@ Result<SubjectFit> fit_subject(const SubjectPrior& prior,
                                std::span<const CameraDetections> standing,
                                std::span<const CameraDetections> moving,
                                const Progress& progress) {
-  const Progress tell = [&](int step, int steps) {
+  const Progress report_step = [&](int step, int steps) {
     if (progress) progress(step, steps);
   };
-  tell(0, kSteps);
+  report_step(0, kSteps);
   const Proportions average = average_proportions(prior.stature_m);
   const std::array<Sightings, 2> trials{group_sightings(standing, prior.tags),
                                         group_sightings(moving, prior.tags)};
   const auto clusters = cluster_tags(cameras, prior.tags, trials);
   const LocatedTrial stood = locate_trial(trials[0], clusters, cameras, prior.tags);
   const LocatedTrial moved = locate_trial(trials[1], clusters, cameras, prior.tags);
-  tell(1, kSteps);
+  report_step(1, kSteps);
   const WornTags worn{cameras, prior.tags, trials, clusters, stood.poses, moved.poses};
   const auto warning = find_suspect_tags(worn, average);
   if (!warning) return warning.error();
   SubjectEvidence evidence;
-  auto fit =
-      fit_located(prior, cameras, {trials, clusters, stood, moved}, tell, evidence);
+  auto fit = fit_located(
+      prior, cameras, {trials, clusters, stood, moved}, report_step, evidence);
   const bool is_refuted =
       *warning && fit && fit->findings.empty() && explains((*warning)->tags, evidence);
   if (*warning && !is_refuted) return (*warning)->error;

@@ -293,13 +293,13 @@ Result<SolvedTrial> solve_motion(const Body& body,
   if (!seen) return not_found(detections, "no tag of the body is seen in any frame");
 
   const int frames = static_cast<int>(sightings.frames.size());
-  const auto tell = [&](int offset) {
+  const auto progress_from = [&](int offset) {
     return [&progress, offset, frames](int done, int /*total*/) {
       if (progress) progress(offset + done, 2 * frames);
     };
   };
   const FrameSolver frame_solver(model, cameras);
-  auto postures = track_postures(frame_solver, sightings, tell(0));
+  auto postures = track_postures(frame_solver, sightings, progress_from(0));
   if (!postures) {
     return not_found(detections, "the body is not found: its hips are never seen");
   }
@@ -315,7 +315,7 @@ Result<SolvedTrial> solve_motion(const Body& body,
   if (options.estimate_offsets) windows.estimate_offsets();
   const bool solved = windows.solve({static_cast<std::size_t>(options.window_frames),
                                      static_cast<std::size_t>(options.overlap_frames)},
-                                    tell(frames));
+                                    progress_from(frames));
   if (!solved) {
     return not_found(detections, "the solver finds no motion that explains the tags");
   }

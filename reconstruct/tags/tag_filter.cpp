@@ -19,7 +19,7 @@ constexpr double kAccelerationScale = 1.2;
 constexpr double kPriorMemory_s = 0.1;
 // The body is lost if less than this share of the sightings is explained.
 constexpr double kMaxExplainedSigmas = 0.5;
-constexpr std::size_t kMinToJudge = 3;
+constexpr std::size_t kMinSeenTags = 3;
 // Sightings with smaller errors are never rejected as another person's: detectors' sigmas
 // can be too small.
 constexpr double kNear_px = 1.5;
@@ -58,7 +58,7 @@ bool TagFilter::is_used(const SightingFit& fit) {
 
 std::optional<Posture> TagFilter::find(const Frame& frame) {
   until_next_search_s_ = std::max(0.0, until_next_search_s_ - frame.since_s);
-  if (until_next_search_s_ > 0.0 || frame.seen.size() < kMinToJudge) return std::nullopt;
+  if (until_next_search_s_ > 0.0 || frame.seen.size() < kMinSeenTags) return std::nullopt;
   auto found = relocalizer_.find(frame.seen);
   if (!found) until_next_search_s_ = kSearchInterval_s;
   return found;
@@ -151,7 +151,7 @@ void TagFilter::repair(const Frame& frame, Posture& posture) {
   const std::span<const SeenTag> seen = frame.seen;
   const double since_s = frame.since_s;
   const double off = unexplained(seen, posture);
-  const bool is_evaluated = seen.size() >= kMinToJudge;
+  const bool is_evaluated = seen.size() >= kMinSeenTags;
   if (is_evaluated)
     unexplained_s_ = off > 1.0 - kMaxExplainedSigmas ? unexplained_s_ + since_s : 0.0;
   until_next_search_s_ = std::max(0.0, until_next_search_s_ - since_s);

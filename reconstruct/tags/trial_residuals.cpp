@@ -61,12 +61,12 @@ struct Seen {
   double m_per_px = 0.0;
 };
 
-std::optional<Seen> see(const Camera& camera,
-                        const glm::dvec3& before,
-                        const glm::dvec3& now,
-                        const glm::dvec3& after,
-                        double span_s,
-                        double offset_s) {
+std::optional<Seen> seen_point(const Camera& camera,
+                               const glm::dvec3& before,
+                               const glm::dvec3& now,
+                               const glm::dvec3& after,
+                               double span_s,
+                               double offset_s) {
   const auto at_before = project(camera, before);
   const auto at_now = project(camera, now);
   const auto at_after = project(camera, after);
@@ -97,12 +97,12 @@ std::vector<CornerError> corner_errors(const Body& body,
     for (const TagSighting& s : sightings.frames[f]) {
       const std::size_t c = index(s.camera);
       for (std::size_t i = 0; i < 4; ++i) {
-        const auto seen = see(cameras[c],
-                              before[s.tag][i],
-                              now[s.tag][i],
-                              after[s.tag][i],
-                              steps / motion.rate.hz,
-                              solved.cameras[c].offset_s);
+        const auto seen = seen_point(cameras[c],
+                                     before[s.tag][i],
+                                     now[s.tag][i],
+                                     after[s.tag][i],
+                                     steps / motion.rate.hz,
+                                     solved.cameras[c].offset_s);
         if (!seen) continue;
         errors.push_back({c,
                           s.tag,

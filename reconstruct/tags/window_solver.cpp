@@ -197,10 +197,10 @@ bool WindowSolver::solve(const WindowSize& size, const Progress& progress) {
   double scale = 1.0;
   for (int i = 0; i < kPasses; ++i) {
     SlipEstimate estimate;
-    const auto tell = [&](int done, int /*total*/) {
+    const auto report_pass = [&](int done, int /*total*/) {
       if (progress) progress((i * frames + done) / kPasses, frames);
     };
-    if (!pass(size, estimate, tell)) return false;
+    if (!pass(size, estimate, report_pass)) return false;
     if (i + 1 < kPasses) slips_m_ = estimate.improved(slips_m_);
     scale = estimate.scale();
   }

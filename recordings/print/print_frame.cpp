@@ -54,7 +54,7 @@ double inner_width(const Paper& paper) {
   return paper.width_m - 2.0 * paper.margin_m;
 }
 
-bool table_is_beside_ruler(const Paper& paper, const PageFrame& frame) {
+bool fits_next_to_ruler(const Paper& paper, const PageFrame& frame) {
   return kRuler_m + kTableGap_m + table_width(frame) <= inner_width(paper);
 }
 
@@ -67,7 +67,7 @@ double header_height(const Paper& paper, const PageFrame& frame) {
 double footer_height(const Paper& paper, const PageFrame& frame) {
   const double table = table_height(frame);
   if (frame.table.empty()) return kRulerBlock_m + 0.003;
-  if (table_is_beside_ruler(paper, frame)) return std::max(kRulerBlock_m, table) + 0.003;
+  if (fits_next_to_ruler(paper, frame)) return std::max(kRulerBlock_m, table) + 0.003;
   return kRulerBlock_m + table + 0.005;
 }
 
@@ -135,11 +135,11 @@ void add_header(PrintedPage& page,
 
 void add_table(PrintedPage& page, const Paper& paper, const PageFrame& frame) {
   if (frame.table.empty()) return;
-  const bool is_beside = table_is_beside_ruler(paper, frame);
+  const bool next_to_ruler = fits_next_to_ruler(paper, frame);
   const double bottom =
-      paper.height_m - paper.margin_m - (is_beside ? 0.0 : kRulerBlock_m);
-  const double left =
-      is_beside ? paper.width_m - paper.margin_m - table_width(frame) : paper.margin_m;
+      paper.height_m - paper.margin_m - (next_to_ruler ? 0.0 : kRulerBlock_m);
+  const double left = next_to_ruler ? paper.width_m - paper.margin_m - table_width(frame)
+                                    : paper.margin_m;
   double y = bottom - table_height(frame);
   for (const std::string& line : frame.table) {
     y += kTableLine_m;

@@ -55,22 +55,22 @@ class TrackDriver {
 };
 
 /// Accumulates the errors of one constraint.
-class Judge {
+class ConstraintErrors {
  public:
-  Judge(const Character& character,
-        const Constraint& constraint,
-        const ConstraintSet& set,
-        const SupportTrack* track)
+  ConstraintErrors(const Character& character,
+                   const Constraint& constraint,
+                   const ConstraintSet& set,
+                   const SupportTrack* track)
       : constraint_(constraint), measure_(character, constraint, set), track_(track) {
     kept_.id = constraint.id;
     kept_.is_support = std::holds_alternative<Support>(constraint.goal);
     kept_.is_orientation = std::holds_alternative<SegmentOrientation>(constraint.goal);
   }
 
-  void look(std::size_t frame,
-            double activation,
-            bool capped,
-            std::span<const RigidTransform> world_from_joint) {
+  void add_frame(std::size_t frame,
+                 double activation,
+                 bool capped,
+                 std::span<const RigidTransform> world_from_joint) {
     if (activation < 1.0) {
       footprint_in_world_.reset();
       return;
@@ -124,9 +124,9 @@ class AwayWatch {
   AwayWatch(std::size_t joints, FrameRate rate)
       : before_(joints), last_(joints), rate_(rate) {}
 
-  void look(int frame,
-            std::span<const RigidTransform> was,
-            std::span<const RigidTransform> is) {
+  void add_frame(int frame,
+                 std::span<const RigidTransform> was,
+                 std::span<const RigidTransform> is) {
     for (std::size_t j = 0; j < last_.size(); ++j) {
       const glm::dvec3 away = is[j].translation - was[j].translation;
       const double bend_m = glm::length(away - 2.0 * last_[j] + before_[j]);
@@ -195,14 +195,14 @@ Result<AdaptedMotion> adapt_motion(const Motion& motion,
     return ok.error();
   }
 
-  std::vector<Judge> judges;
+  std::vector<ConstraintErrors> errors;
   std::vector<Adapter::Handle> handles;
   std::vector<TrackDriver> drivers;
   const std::size_t own = constraints.constraints.size();
   for (std::size_t i = 0; i < all.constraints.size(); ++i) {
     const Constraint& c = all.constraints[i];
     const SupportTrack* track = i < own ? nullptr : &supports[i - own];
-    judges.emplace_back(character, c, all, track);
+    errors.emplace_back(character, c, all, track);
     handles.push_back(*adapter->constraint(c.id));
     if (track != nullptr) drivers.emplace_back(*track, handles.back(), motion);
   }
@@ -222,9 +222,10 @@ Result<AdaptedMotion> adapt_motion(const Motion& motion,
         adapter->adapt(motion.poses[t], time_s, out.motion.poses[t]);
     add_report(report, static_cast<int>(t), out);
     world_from_joints(motion.skeleton, out.motion.poses[t], world_from_joint);
-    watch.look(static_cast<int>(t), reference, world_from_joint);
-    for (std::size_t i = 0; i < judges.size(); ++i) {
-      judges[i].look(t, handles[i].outcome().activation, report.capped, world_from_joint);
+    watch.add_frame(static_cast<int>(t), reference, world_from_joint);
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      errors[i].add_frame(
+          t, handles[i].outcome().activation, report.capped, world_from_joint);
     }
     if (progress) progress(static_cast<int>(t) + 1, count);
   }
@@ -232,8 +233,8 @@ Result<AdaptedMotion> adapt_motion(const Motion& motion,
   const double share = count > 0 ? 1.0 / count : 0.0;
   out.mean_iterations *= share;
   out.mean_balance_error_m *= share;
-  for (std::size_t i = 0; i < judges.size(); ++i) {
-    (i < own ? out.constraints : out.supports).push_back(judges[i].kept());
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    (i < own ? out.constraints : out.supports).push_back(errors[i].kept());
   }
   return out;
 }

@@ -120,7 +120,7 @@ void AdapterState::solve_for(double min_activation, LaneFigures<float>& figures)
   add(finish_lanes(plan, form, solve_settings, true, lanes, solve));
 }
 
-void AdapterState::judge(const Plan& shared, const float* errors) {
+void AdapterState::update_report(const Plan& shared, const float* errors) {
   report = {};
   double weights = 0.0;
   for (std::size_t k = 0; k < shared.points.size(); ++k) {
@@ -157,7 +157,7 @@ void AdapterState::write(const Plan& shared, const float* numbers, Pose& out) {
   for (std::size_t i = 0; i < n; ++i) {
     world_from_joint[i].translation = origin_in_world + from.vector() * body.unit_m;
   }
-  judge(shared, from.here());
+  update_report(shared, from.here());
   for (std::size_t k = 0; k < shared.points.size(); ++k) from.number();
   report.iterations = static_cast<int>(from.number());
   report.capped = from.number() > 0.0;

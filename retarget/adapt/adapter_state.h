@@ -145,7 +145,7 @@ struct AdapterState {
   void settle_mean();
   void pass_over(double time_s);
   /// Computes outcomes and report from the errors of the plan's points.
-  void judge(const Plan& shared, const float* errors);
+  void update_report(const Plan& shared, const float* errors);
 
   std::vector<float> result;
 };

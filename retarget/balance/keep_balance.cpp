@@ -69,11 +69,11 @@ std::vector<double> stillness(const BalanceReference& reference,
     const double speed = to > from ? way_m * rate.hz / (to - from) : 0.0;
     const double moves = (speed / reference.leg_length_m - options.still_legs_per_s) /
                          (options.moving_legs_per_s - options.still_legs_per_s);
-    const double beside =
+    const double outside =
         (share_of_half(reference.support[i], reference.com_xz_m[i]) - 1.0) /
-        (options.beside_halves - 1.0);
+        (options.max_halves - 1.0);
     out.push_back(reference.shares[i].present * (1.0 - smooth_step(moves)) *
-                  (1.0 - smooth_step(beside)));
+                  (1.0 - smooth_step(outside)));
   }
   return out;
 }

@@ -30,11 +30,11 @@ struct BalanceOptions {
   int passes = 8;           ///< Each pass restores what the low-pass removed before.
   // Criteria for balance. A frame counts fully while the centre of mass is slower than
   // `still_legs_per_s` and above the support area. It does not count above
-  // `moving_legs_per_s`, or beyond `beside_halves` half sizes from the middle of the
+  // `moving_legs_per_s`, or beyond `max_halves` half sizes from the middle of the
   // support area (support_frame.h).
   double still_legs_per_s = 0.25;
   double moving_legs_per_s = 0.7;
-  double beside_halves = 2.5;
+  double max_halves = 2.5;
 };
 
 /// Result of keeping balance.

@@ -108,12 +108,12 @@ class TPose {
     is_set_[index(joint)] = true;
   }
 
-  /// Rotation that puts `along` of a frame along `to`, and `beside` towards `side`.
+  /// Rotation that puts `along` of a frame along `to`, and `lateral` towards `side`.
   static glm::dquat turned(const glm::dvec3& along,
                            const glm::dvec3& to,
-                           const glm::dvec3& beside,
+                           const glm::dvec3& lateral,
                            const glm::dvec3& side) {
-    const glm::dvec3 b = across(beside, along);
+    const glm::dvec3 b = across(lateral, along);
     const glm::dvec3 s = across(side, to);
     const glm::dmat3 own(along, b, glm::cross(along, b));
     const glm::dmat3 there(to, s, glm::cross(to, s));
@@ -189,9 +189,9 @@ class TPose {
     const bool is_axis = snapped(along, 0.97) != along || snapped(along, 1.0) == along;
     glm::dquat best(1.0, 0.0, 0.0, 0.0);
     double max_likelihood = -std::numeric_limits<double>::infinity();
-    for (const glm::dvec3& beside :
+    for (const glm::dvec3& lateral :
          turns_about(along, (is_axis ? 90.0 : 30.0) * kRadiansPerDegree)) {
-      const glm::dquat t_pose = turned(along, to, beside, side);
+      const glm::dquat t_pose = turned(along, to, lateral, side);
       const bool is_prior = glm::dot(glm::conjugate(t_pose) * side, prior) > 0.9;
       const double likely =
           likelihood(joint, t_pose) + (is_prior ? kPrior * evidence_.frames : 0.0);

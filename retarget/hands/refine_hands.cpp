@@ -26,13 +26,13 @@ bool is_second(const Touches& touches, const Touch& touch, int frame) {
       });
 }
 
-void judge(const VolumeInMotion& source,
-           const VolumeInMotion& avatar,
-           const Arms& source_arms,
-           const Arms& arms,
-           const HandHolds& holds,
-           const ArmShifts& shifts,
-           HandReport& report) {
+void measure_touches(const VolumeInMotion& source,
+                     const VolumeInMotion& avatar,
+                     const Arms& source_arms,
+                     const Arms& arms,
+                     const HandHolds& holds,
+                     const ArmShifts& shifts,
+                     HandReport& report) {
   const ArmShifts none{std::vector<ArmShift>(arms.count()),
                        std::vector<ArmShift>(arms.count())};
   double sum_m = 0.0;
@@ -109,7 +109,7 @@ HandReport refine_hands(const Motion& source,
     report.arms = resolve_arm_collisions(
         from, to, arms, source.rate, world, holds, options.arms, shifts);
   }
-  judge(from, to, source_arms, arms, holds, shifts, report);
+  measure_touches(from, to, source_arms, arms, holds, shifts, report);
   shift_arms(arms, avatar_map, avatar_frames, shifts, motion);
   return report;
 }

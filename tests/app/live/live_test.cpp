@@ -108,8 +108,8 @@ class LiveRecording : public ::testing::Test {
                                          "127.0.0.1:" + std::to_string(listener->port()),
                                          "--record",
                                          take().string()})));
-    heard_ = 0;
-    while (const auto packet = listener->receive()) ++heard_;
+    received_ = 0;
+    while (const auto packet = listener->receive()) ++received_;
   }
   static void TearDownTestSuite() {
     delete run_;
@@ -119,7 +119,7 @@ class LiveRecording : public ::testing::Test {
 
   static inline ScratchFolder* folder_ = nullptr;
   static inline ProgramRun* run_ = nullptr;
-  static inline int heard_ = 0;
+  static inline int received_ = 0;
 };
 
 TEST_F(LiveRecording, FollowsTheWalkToItsEnd) {
@@ -133,7 +133,7 @@ TEST_F(LiveRecording, FollowsTheWalkToItsEnd) {
   EXPECT_EQ(figures["outputs"][1]["name"].get<std::string>().rfind("VRChat", 0), 0U);
   EXPECT_GE(figures["outputs"][1]["sent"], figures["tracked"]);
   // The test reads the socket only after the run. A socket holds some hundred packets.
-  EXPECT_GT(heard_, 20);
+  EXPECT_GT(received_, 20);
 }
 
 TEST_F(LiveRecording, IsReplayedToTheSameBytes) {

@@ -51,12 +51,12 @@ class Guiding : public ::testing::Test {
         instant.views.push_back(
             {CameraId{static_cast<int>(c)}, instant.time, seen[c].frames[f].tags});
       }
-      guide_.see(instant);
+      guide_.process(instant);
     }
   }
 
   void show_nobody(double lasts_s) {
-    for (int f = 0; f < static_cast<int>(lasts_s * kRate_hz); ++f) guide_.see(next());
+    for (int f = 0; f < static_cast<int>(lasts_s * kRate_hz); ++f) guide_.process(next());
   }
 
   LiveInstant next() {

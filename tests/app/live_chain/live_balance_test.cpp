@@ -60,7 +60,7 @@ TEST_F(BalanceOfAWalk, MatchesTheRecording) {
   int borne = 0;
   for (std::size_t i = 0; i < walk_.poses.size(); ++i) {
     live.step(walk_.poses[i], 1.0 / kBalanceRate_hz);
-    const BalanceFrame* now = live.look(0, walk_.poses[i]);
+    const BalanceFrame* now = live.measure(0, walk_.poses[i]);
     ASSERT_NE(now, nullptr);
     EXPECT_EQ(now->centre_of_mass_in_world, recorded_[i].centre_of_mass_in_world) << i;
     borne += now->support_xz_m.empty() ? 0 : 1;
@@ -78,12 +78,12 @@ TEST_F(BalanceOfAWalk, TakesNoWeightOnAFootThatIsDragged) {
   const Pose rest = rest_pose(walk_.skeleton);
   for (int i = 0; i < 3; ++i) live.step(rest, 1.0 / kBalanceRate_hz);
   ASSERT_TRUE(live.standing()[0].heel && live.standing()[1].heel);
-  const auto both = live.look(1, rest)->support_xz_m;
+  const auto both = live.measure(1, rest)->support_xz_m;
   std::array<HandleState, 1> handles{};
   handles[0].joint = *walk_.skeleton.find(HumanBone::kLeftFoot);
-  EXPECT_EQ(live.look(1, rest, handles)->support_xz_m, both);
+  EXPECT_EQ(live.measure(1, rest, handles)->support_xz_m, both);
   handles[0].active = true;
-  const auto& one = live.look(1, rest, handles)->support_xz_m;
+  const auto& one = live.measure(1, rest, handles)->support_xz_m;
   ASSERT_EQ(one.size(), 4U);
   for (const glm::dvec2& corner : one) EXPECT_LT(corner.x, 0.0);  // The right foot's.
 }
@@ -92,11 +92,11 @@ TEST_F(BalanceOfAWalk, AllocatesNothingOnceItHasLooked) {
   const std::array<const Skeleton*, 1> bodies{&walk_.skeleton};
   LiveBalance live(bodies);
   live.step(walk_.poses[0], 1.0 / kBalanceRate_hz);
-  (void)live.look(0, walk_.poses[0]);
+  (void)live.measure(0, walk_.poses[0]);
   const long before = testing::allocations();
   for (const Pose& pose : walk_.poses) {
     live.step(pose, 1.0 / kBalanceRate_hz);
-    (void)live.look(0, pose);
+    (void)live.measure(0, pose);
   }
   EXPECT_EQ(testing::allocations(), before);
 }
@@ -107,7 +107,7 @@ TEST(LiveBalance, IsAbsentForBodiesThatAreNotHuman) {
   const std::array<const Skeleton*, 1> bodies{&box};
   LiveBalance live(bodies);
   live.step(rest_pose(box), 0.1);
-  EXPECT_EQ(live.look(0, rest_pose(box)), nullptr);
+  EXPECT_EQ(live.measure(0, rest_pose(box)), nullptr);
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ class PlayedRun {
       }
       if (!looks) continue;
       last_look_s_ = time_s;
-      const Flow now = flow.look(frame_time_of(time_s), pictures_);
+      const Flow now = flow.update(frame_time_of(time_s), pictures_);
       if (now != Flow::kSteady && !trouble_since_s) trouble_since_s = time_s;
       if (now == Flow::kSteady) trouble_since_s.reset();
     }
@@ -165,21 +165,21 @@ TEST_F(WatchedLive, NotifiesReceiversAndTheConsoleWithoutInstants) {
   double time_s = 0.0;
   for (; time_s < 2.0; time_s += 1.0 / kFlowRate_hz) {
     watchdog.on_instant(frame_time_of(time_s), true);
-    EXPECT_FALSE(watchdog.look(frame_time_of(time_s), ++pictures));
+    EXPECT_FALSE(watchdog.update(frame_time_of(time_s), ++pictures));
   }
   EXPECT_EQ(received_tracking(), std::nullopt) << "instants send their own packets";
   int changes = 0;
   for (const double end_s = time_s + 1.0; time_s < end_s; time_s += 0.1) {
-    changes += watchdog.look(frame_time_of(time_s), ++pictures);
+    changes += watchdog.update(frame_time_of(time_s), ++pictures);
   }
   EXPECT_EQ(changes, 1);
   EXPECT_TRUE(watchdog.is_behind());
   EXPECT_EQ(received_tracking(), false);
-  (void)watchdog.look(frame_time_of(time_s + 0.3), pictures);
+  (void)watchdog.update(frame_time_of(time_s + 0.3), pictures);
   EXPECT_EQ(received_tracking(), false) << "it is sent repeatedly";
   for (const double end_s = time_s + 6.0; time_s < end_s; time_s += 1.0 / kFlowRate_hz) {
     watchdog.on_instant(frame_time_of(time_s), true);
-    (void)watchdog.look(frame_time_of(time_s), ++pictures);
+    (void)watchdog.update(frame_time_of(time_s), ++pictures);
   }
   EXPECT_FALSE(watchdog.is_behind());
   const std::string said = ::testing::internal::GetCapturedStderr();
@@ -197,7 +197,7 @@ TEST_F(WatchedLive, DoesNotFloodTheConsole) {
     const double time_s = f / kFlowRate_hz;
     ++pictures;
     if (f % 60 < 35) watchdog.on_instant(frame_time_of(time_s), true);
-    (void)watchdog.look(frame_time_of(time_s), pictures);
+    (void)watchdog.update(frame_time_of(time_s), pictures);
   }
   const std::string said = ::testing::internal::GetCapturedStderr();
   std::size_t count = 0;

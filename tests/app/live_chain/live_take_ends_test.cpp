@@ -222,7 +222,7 @@ TEST_F(TakesOfARun, MeasureNoSubjectAfterTheEnd) {
   live_.prior = {"first", 1.75, std::nullopt, testing::tags_of(*live_.body)};
   live_.subject_file = folder_ / "subject.toml";
   LiveGuide guide(live_, {.begin = true, .by_itself = true}, console_);
-  for (int i = 0; i < 5; ++i) guide.see(instant());
+  for (int i = 0; i < 5; ++i) guide.process(instant());
   guide.end();
   EXPECT_EQ(guide.ui_state().step, live::WizardStep::kFailed);
   EXPECT_FALSE(guide.has_measured());

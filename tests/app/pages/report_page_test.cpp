@@ -77,10 +77,10 @@ TEST_F(ReportInABrowser, CallsNoFigureGoodThatOneFrameOrJointSpoils) {
     frame.front().sigma_m = 0.3;
   }
   EXPECT_EQ(cards_to_look_at(spoiled), usual + 2);
-  Report doubted = good;
-  doubted.findings.push_back(poor_finding(
+  Report warned_about = good;
+  warned_about.findings.push_back(poor_finding(
       "subject", "subject.toml", "the tags on segment \"leftFoot\" fit in two ways", ""));
-  EXPECT_EQ(cards_to_look_at(doubted), usual + 3);
+  EXPECT_EQ(cards_to_look_at(warned_about), usual + 3);
 }
 
 TEST_F(ReportInABrowser, OpensWithoutATrial) {

@@ -81,8 +81,8 @@ TEST(RetargetBodies, MatchTheReportedSkinDepth) {
   int deep = 0;
   for (const CampaignResult& result :
        run_campaign(marey::testing::program(), folder, floor, bodies, {"--no-ground"})) {
-    ASSERT_TRUE(result.judged && result.told_depth_mm) << result.error;
-    EXPECT_NEAR(*result.told_depth_mm,
+    ASSERT_TRUE(result.judged && result.reported_depth_mm) << result.error;
+    EXPECT_NEAR(*result.reported_depth_mm,
                 result.judged->skin_depth_mm,
                 0.1 * result.judged->skin_depth_mm)
         << result.body;

@@ -20,7 +20,7 @@ using std::chrono::seconds;
 class Reopening : public testing::Test {
  protected:
   FakeKernel kernel_;
-  std::vector<std::string> told_;
+  std::vector<std::string> reported_states_;
 
   FakeCamera& camera() { return kernel_.cameras[0]; }
 
@@ -32,7 +32,9 @@ class Reopening : public testing::Test {
     request.height_px = 480;
     auto device = ReopeningDevice::open(
         request,
-        [this](const CameraStatus& status) { told_.emplace_back(name(status.state)); },
+        [this](const CameraStatus& status) {
+          reported_states_.emplace_back(name(status.state));
+        },
         {},
         kernel_);
     EXPECT_TRUE(device);
@@ -60,7 +62,7 @@ TEST_F(Reopening, WithoutItsCameraDoesNotBegin) {
 TEST_F(Reopening, ReportsNothingDuringNormalStreaming) {
   ReopeningDevice device = open();
   EXPECT_NEAR(run(device, seconds(3)), 90, 2);
-  EXPECT_TRUE(told_.empty());
+  EXPECT_TRUE(reported_states_.empty());
   EXPECT_EQ(device.status().losses, 0);
 }
 
@@ -98,7 +100,7 @@ TEST_F(Reopening, IsBackWithinThreeSecondsUnderWhateverPath) {
   }
   EXPECT_LE(kernel_.now() - replugged, seconds(3));
   EXPECT_EQ(device.info().path, "/dev/video5");
-  EXPECT_EQ(told_, (std::vector<std::string>{"lost", "streaming"}));
+  EXPECT_EQ(reported_states_, (std::vector<std::string>{"lost", "streaming"}));
   EXPECT_EQ(device.status().losses, 1);
   EXPECT_EQ(device.status().restarts, 1);
 }
@@ -133,7 +135,7 @@ TEST_F(Reopening, SurvivesADriverThatFailsForGood) {
   run(device, seconds(1));
   kernel_.refuse(VIDIOC_DQBUF, EIO, 1);
   EXPECT_GT(run(device, seconds(3)), 60);
-  EXPECT_EQ(told_, (std::vector<std::string>{"lost", "streaming"}));
+  EXPECT_EQ(reported_states_, (std::vector<std::string>{"lost", "streaming"}));
 }
 
 TEST_F(Reopening, DoesNotTryWithoutPauseWhereEveryAttemptFailsSoon) {
@@ -148,14 +150,15 @@ TEST_F(Reopening, DoesNotTryWithoutPauseWhereEveryAttemptFailsSoon) {
 TEST_F(Reopening, ReportsSilenceOnceAndReopensASilentCamera) {
   ReopeningDevice device = open(30);
   run(device, milliseconds(2500));
-  EXPECT_EQ(told_, std::vector<std::string>{"silent"});
+  EXPECT_EQ(reported_states_, std::vector<std::string>{"silent"});
   EXPECT_EQ(device.status().losses, 0);
   run(device, seconds(5));
   EXPECT_EQ(device.status().restarts, 1);
-  EXPECT_EQ(told_, std::vector<std::string>{"silent"}) << "once, not at every restart";
+  EXPECT_EQ(reported_states_, std::vector<std::string>{"silent"})
+      << "once, not at every restart";
   camera().frames = frames_from(0, 100);
   run(device, seconds(1));
-  EXPECT_EQ(told_, (std::vector<std::string>{"silent", "streaming"}));
+  EXPECT_EQ(reported_states_, (std::vector<std::string>{"silent", "streaming"}));
 }
 
 TEST_F(Reopening, SumsDroppedAndDamagedFramesButNotOutages) {

@@ -233,7 +233,7 @@ struct Belly {
   BodyVolume volume;
 };
 
-Belly hanging_beside_a_belly(double factor) {
+Belly hanging_next_to_belly(double factor) {
   Motion source = hands_go_to({});
   const BodyMap map = mapped(source.skeleton);
   // They swing slightly, as arms do.
@@ -250,7 +250,7 @@ Belly hanging_beside_a_belly(double factor) {
 }
 
 TEST(ResolveArmCollisions, PutsHangingArmsOutOfABiggerBelly) {
-  const Belly scene = hanging_beside_a_belly(1.5);
+  const Belly scene = hanging_next_to_belly(1.5);
   const auto without = retargeted(scene.source, scene.source.skeleton, false);
   const auto with = retargeted(scene.source, scene.source.skeleton, true, scene.volume);
   EXPECT_GT(deepest_of_hands_m(without.motion, scene.volume), 0.02);
@@ -259,7 +259,7 @@ TEST(ResolveArmCollisions, PutsHangingArmsOutOfABiggerBelly) {
 }
 
 TEST(ResolveArmCollisions, MovesThemSmoothly) {
-  const Belly scene = hanging_beside_a_belly(1.5);
+  const Belly scene = hanging_next_to_belly(1.5);
   const auto without = retargeted(scene.source, scene.source.skeleton, false);
   const auto with = retargeted(scene.source, scene.source.skeleton, true, scene.volume);
   for (const B bone : {B::kLeftHand, B::kRightHand, B::kLeftLowerArm}) {
@@ -270,7 +270,7 @@ TEST(ResolveArmCollisions, MovesThemSmoothly) {
 }
 
 TEST(ResolveArmCollisions, ChangesNothingOnTheSourcesOwnBody) {
-  const Belly scene = hanging_beside_a_belly(1.0);
+  const Belly scene = hanging_next_to_belly(1.0);
   const auto without = retargeted(scene.source, scene.source.skeleton, false);
   const auto with = retargeted(scene.source, scene.source.skeleton, true, scene.volume);
   EXPECT_LT(added(without.motion, with.motion, B::kLeftHand).distance_m, 1e-9);
@@ -278,7 +278,7 @@ TEST(ResolveArmCollisions, ChangesNothingOnTheSourcesOwnBody) {
 }
 
 TEST(ResolveArmCollisions, LiftsHandsOverTheFloorByTheirElbows) {
-  const Belly scene = hanging_beside_a_belly(1.0);
+  const Belly scene = hanging_next_to_belly(1.0);
   const auto without = retargeted(scene.source, ape(), false);
   const auto with = retargeted(scene.source, ape(), true);
   EXPECT_GT(deepest_hand_m(without.motion), 0.08) << "the claim is empty";

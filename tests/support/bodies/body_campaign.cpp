@@ -28,8 +28,8 @@ std::vector<std::string> gross_errors(const CampaignResult& result) {
   if (judged.max_speed > 12.0 && judged.max_speed > 2.0 * judged.source_max_speed) {
     out.emplace_back("speed");
   }
-  if (result.told_depth_mm) {
-    const double off_mm = std::abs(*result.told_depth_mm - judged.skin_depth_mm);
+  if (result.reported_depth_mm) {
+    const double off_mm = std::abs(*result.reported_depth_mm - judged.skin_depth_mm);
     if (off_mm > 0.1 * judged.skin_depth_mm + 0.5)
       out.emplace_back("reported skin depth");
   }
@@ -67,10 +67,11 @@ std::vector<CampaignResult> run_campaign(const std::filesystem::path& program,
     const auto& figures = json["avatars"][i];
     result.error = figures.value("error", "");
     if (figures.contains("deepest_penetration_mm")) {
-      result.told_depth_mm = figures["deepest_penetration_mm"].get<double>();
+      result.reported_depth_mm = figures["deepest_penetration_mm"].get<double>();
     }
     if (figures.contains("posture")) {
-      result.told_foot_deg = figures["posture"]["feet"]["sustained_deg"].get<double>();
+      result.reported_foot_deg =
+          figures["posture"]["feet"]["sustained_deg"].get<double>();
     }
     if (figures.contains("problems")) {
       for (const auto& problem : figures["problems"]) {

@@ -25,8 +25,8 @@ struct CampaignResult {
   std::string body, clip;
   /// Error of the program or of the judge; "" if there is none.
   std::string error;
-  std::optional<double> told_depth_mm;         ///< deepest_penetration_mm.
-  std::optional<double> told_foot_deg;         ///< posture.feet.sustained_deg.
+  std::optional<double> reported_depth_mm;     ///< deepest_penetration_mm.
+  std::optional<double> reported_foot_deg;     ///< posture.feet.sustained_deg.
   std::vector<std::string> reported_problems;  ///< The report's findings of this body.
   std::optional<BodyFigures> judged;
   int exit_code = -1;  ///< Exit code of the run that made all bodies.

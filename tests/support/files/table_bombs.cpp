@@ -36,7 +36,7 @@ std::string c3d(std::uint16_t points, std::uint16_t analog, std::uint16_t per_fr
 struct Entry {
   std::string name;
   std::string content;
-  std::uint64_t told_size = 0;  ///< Size in the directory's row.
+  std::uint64_t stated_size = 0;  ///< Size in the directory's row.
   std::uint64_t method = 0;
 };
 
@@ -50,8 +50,8 @@ std::string zip(const std::vector<Entry>& entries) {
     std::string row(46, '\0');
     put(row, 0, 0x02014b50, 4);
     put(row, 10, entry.method, 2);
-    put(row, 20, entry.told_size, 4);
-    put(row, 24, entry.told_size, 4);
+    put(row, 20, entry.stated_size, 4);
+    put(row, 24, entry.stated_size, 4);
     put(row, 28, entry.name.size(), 2);
     put(row, 42, bytes.size(), 4);
     bytes += local + entry.name + entry.content;
