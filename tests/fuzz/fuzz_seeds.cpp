@@ -200,7 +200,7 @@ bool write_all(const std::filesystem::path& folder) {
       "GET\n/page.js?token=0123456789abcdef0123456789abcdef\n127.0.0.1:8790\n"
       "http://127.0.0.1:8790\nmarey_token=0123456789abcdef0123456789abcdef\n\"5f2c\"";
   return ok && write_file(folder / "page_message/drag", drag).has_value() &&
-         write_file(folder / "page_request/request", request).has_value() &&
+         write_file(folder / "web_request/request", request).has_value() &&
          write_constraint_sets(folder / "constraints") && write_motions(folder) &&
          fuzz::write_result_seeds(folder, small_motion()) &&
          write_file(folder / "osc/pose", fuzz::osc_pose()).has_value() &&
