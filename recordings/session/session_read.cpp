@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/base/frame_range.h"
 #include "core/base/in_quotes.h"
 #include "core/humanoid.h"
 #include "core/nearest_word.h"
