@@ -12,8 +12,8 @@
 
 #include "app/check/check_frame_times.h"
 #include "core/base/frame_range.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/takes/take_file.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/support/files/run_sql.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/program/scratch_folder.h"
