@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 # Sets viewer_folder, where the served page is, and viewer_files, what it is made of; and for
-# app/report the global properties MAREY_REPORT_PARTS (functions of app/pages/report_page.h,
+# app/pages the global properties MAREY_REPORT_PARTS (functions of app/pages/report_page.h,
 # each with its files) and MAREY_REPORT_FILES: as npm builds them in live/viewer, or plain
 # ones that say that there are none.
 option(MAREY_VIEWER "Build the served page and the reports with npm, and build them in" ON)

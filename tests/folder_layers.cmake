@@ -12,8 +12,8 @@ set(reconstruct_LAYERS
 set(retarget_LAYERS
   base constraints bones body character contacts feet balance hands motion
   adapt/plan adapt/kernel adapt)
-set(recordings_LAYERS text body takes motion gltf markers print session)
+set(recordings_LAYERS base body takes motion gltf markers print session)
 set(live_LAYERS udp vmc page web)
 set(app_LAYERS
-  shell motion pages adapt convert plan record check markers process retarget
+  shell motion pages adapt convert print plan record check markers process retarget
   live_chain view live inspect .)

@@ -7,16 +7,17 @@
 
 #include "app/check/match_times.h"
 #include "capture/search/find_board_elsewhere.h"
+#include "core/base/frame_range.h"
 
 namespace marey::app {
 
 std::optional<Error> explain_missing_board(const recordings::Session& session,
                                            const recordings::Trial& trial,
                                            const CameraDetections& camera) {
-  std::optional<capture::FrameRange> searched;
+  std::optional<FrameRange> searched;
   std::string frames = "any of its " + std::to_string(camera.frames.size()) + " frames";
   if (trial.frames && !has_times_file(trial)) {
-    searched = capture::FrameRange{trial.frames->first, trial.frames->last};
+    searched = trial.frames;
     frames = "frames " + std::to_string(searched->first) + " to " +
              std::to_string(searched->last);
   }

@@ -12,6 +12,7 @@
 #include "capture/sync/align_frames.h"
 #include "core/base/assert.h"
 #include "core/base/format_text.h"
+#include "core/base/frame_range.h"
 #include "recordings/takes/frame_stamps.h"
 #include "recordings/takes/take_file.h"
 
@@ -30,7 +31,7 @@ std::filesystem::path take_file_of(const TrialVideo& video) {
 /// Renumbers the frames of a camera by `aligned`, and keeps those of `range`.
 /// Precondition: `aligned` covers the range.
 void renumber(const capture::AlignedCamera& aligned,
-              const std::optional<recordings::FrameRange>& range,
+              const std::optional<FrameRange>& range,
               CameraDetections& camera) {
   const int all = static_cast<int>(aligned.recorded.size());
   const int first = range ? range->first : 0;

@@ -11,9 +11,9 @@
 #include "app/motion/read_body.h"
 #include "core/base/extension.h"
 #include "core/bone_map.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/body/bone_map_file.h"
 #include "recordings/body/skeleton_picture.h"
-#include "recordings/text/atomic_file.h"
 #include "retarget/bones/identify_bones.h"
 
 namespace marey::app {

@@ -11,6 +11,7 @@
 
 #include "app/shell/lens_words.h"
 #include "app/shell/program_name.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/body/character_file.h"
 #include "recordings/body/constraints_file.h"
 #include "recordings/body/floor_file.h"
@@ -22,7 +23,6 @@
 #include "recordings/session/detections_file.h"
 #include "recordings/session/plan_file.h"
 #include "recordings/session/subject_file.h"
-#include "recordings/text/atomic_file.h"
 
 namespace marey::app {
 namespace {

@@ -18,7 +18,7 @@
 #include "live/vmc/received_motion.h"
 #include "live/vmc/sender_clock.h"
 #include "live/vmc/vmc_receiver.h"
-#include "recordings/text/atomic_file.h"
+#include "recordings/base/atomic_file.h"
 
 namespace marey::app {
 namespace {

@@ -19,9 +19,9 @@
 #include "app/shell/option_checks.h"
 #include "core/base/stopwatch.h"
 #include "reconstruct/markers/estimate_stature.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/markers/marker_map.h"
 #include "recordings/session/subject_file.h"
-#include "recordings/text/atomic_file.h"
 
 namespace marey::app {
 namespace {

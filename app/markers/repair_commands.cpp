@@ -12,8 +12,8 @@
 #include "app/markers/marker_report.h"
 #include "app/markers/repair_json.h"
 #include "core/base/extension.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/markers/marker_file.h"
-#include "recordings/text/atomic_file.h"
 
 namespace marey::app {
 namespace {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/base/frame_range.h"
 #include "core/humanoid.h"
 #include "reconstruct/motion/find_flights.h"
 #include "retarget/body/body_map.h"
@@ -123,8 +124,7 @@ recordings::NpzContacts foot_contacts(const Motion& motion) {
     out.names.emplace_back(name(bone));
   }
   out.bears.assign(out.names.size() * motion.poses.size(), 0);
-  const auto mark = [&](const std::vector<retarget::FrameInterval>& intervals,
-                        std::size_t place) {
+  const auto mark = [&](const std::vector<FrameRange>& intervals, std::size_t place) {
     for (const auto& [first, last] : intervals) {
       for (int frame = first; frame <= last; ++frame) {
         out.bears[static_cast<std::size_t>(frame) * out.names.size() + place] = 1;

@@ -10,11 +10,11 @@
 #include "app/motion/error_of_file.h"
 #include "app/motion/foot_contacts.h"
 #include "core/pose.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/gltf/vrma.h"
 #include "recordings/motion/mot.h"
 #include "recordings/motion/motion_tables.h"
 #include "recordings/motion/npz.h"
-#include "recordings/text/atomic_file.h"
 #include "retarget/body/body_map.h"
 
 namespace marey::app {

@@ -8,8 +8,8 @@
 
 #include "core/base/result.h"
 #include "core/motion.h"
+#include "recordings/body/mesh.h"
 #include "recordings/gltf/gltf.h"
-#include "recordings/text/mesh.h"
 #include "retarget/bones/body_frame.h"
 
 namespace marey::app {

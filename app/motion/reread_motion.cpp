@@ -11,10 +11,10 @@
 #include <glm/geometric.hpp>
 
 #include "core/pose.h"
+#include "recordings/base/motion_limits.h"
 #include "recordings/gltf/posed_places.h"
 #include "recordings/motion/bvh.h"
 #include "recordings/motion/npz.h"
-#include "recordings/text/motion_limits.h"
 
 namespace marey::app {
 namespace {
@@ -57,7 +57,7 @@ bool is_gltf(MotionFormat format) {
   return format == MotionFormat::kGlb || format == MotionFormat::kVrma;
 }
 
-/// Slow keys are read at 30 Hz (recordings/text/motion_limits.h). Returns which of the
+/// Slow keys are read at 30 Hz (recordings/base/motion_limits.h). Returns which of the
 /// read frames are the motion's: every first, second, third...; 0: none are.
 std::size_t step_between_keys(const Motion& motion, std::size_t read_frames) {
   const double step = recordings::kBlendedKeysHz / motion.rate.hz;

@@ -6,7 +6,7 @@
 
 namespace marey::app {
 
-// Pages of live/viewer that are built into the program (app/report/embed.cmake).
+// Pages of live/viewer that are built into the program (app/pages/embed.cmake).
 
 /// Returns the shell of a session's report, with the places {{style}}, {{data}} and
 /// {{script}}.

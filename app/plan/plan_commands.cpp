@@ -17,9 +17,9 @@
 #include "calib/plan/plan_calibration.h"
 #include "capture/tags/corner_sigma.h"
 #include "capture/tags/detect_tags.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/print/print_words.h"
 #include "recordings/session/plan_file.h"
-#include "recordings/text/atomic_file.h"
 
 namespace marey::app {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/check/match_times.h"
+#include "recordings/base/content_key.h"
 #include "recordings/session/detections_file.h"
-#include "recordings/text/content_key.h"
 
 namespace marey::app {
 

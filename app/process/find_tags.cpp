@@ -44,7 +44,7 @@ capture::CameraInput input_of(const Trial& trial, const TrialVideo& video) {
   input.path = video.path;
   input.camera = video.camera;
   if (trial.frames && !has_times_file(trial)) {
-    input.range = {trial.frames->first, trial.frames->last};
+    input.range = trial.frames;
   }
   input.rate = trial.rate;  // A folder of images has no other.
   return input;

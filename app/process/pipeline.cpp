@@ -26,8 +26,8 @@
 #include "core/base/stopwatch.h"
 #include "reconstruct/clusters/check_views.h"
 #include "reconstruct/subject/fit_subject.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/session/subject_file.h"
-#include "recordings/text/atomic_file.h"
 
 namespace marey::app {
 namespace {

@@ -20,8 +20,8 @@
 #include "core/base/assert.h"
 #include "core/base/stopwatch.h"
 #include "reconstruct/clusters/check_views.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/session/calibration_file.h"
-#include "recordings/text/atomic_file.h"
 
 namespace marey::app {
 

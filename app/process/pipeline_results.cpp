@@ -17,7 +17,7 @@
 #include "core/base/stopwatch.h"
 #include "reconstruct/tags/solve_motion.h"
 #include "reconstruct/tags/trial_residuals.h"
-#include "recordings/text/atomic_file.h"
+#include "recordings/base/atomic_file.h"
 
 namespace marey::app {
 

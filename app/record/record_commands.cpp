@@ -9,8 +9,8 @@
 #include "app/shell/option_checks.h"
 #include "app/shell/stop_signal.h"
 #include "capture/feeds/device_feed.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/session/session_copy.h"
-#include "recordings/text/atomic_file.h"
 
 namespace marey::app {
 namespace {

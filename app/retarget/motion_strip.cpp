@@ -11,6 +11,7 @@
 #include <glm/vec2.hpp>
 
 #include "app/pages/page_text.h"
+#include "core/base/frame_range.h"
 #include "core/pose.h"
 #include "retarget/contacts/measure_contacts.h"
 
@@ -222,7 +223,7 @@ std::vector<Footprint> footprints_of(const Motion& motion,
   std::vector<Footprint> out;
   for (std::size_t side = 0; side < 2; ++side) {
     if (paths[side].empty() || paths[side + 2].empty()) continue;
-    for (const retarget::FrameInterval& run : contacts.feet[side].stance) {
+    for (const FrameRange& run : contacts.feet[side].stance) {
       const auto middle = static_cast<std::size_t>((run.first + run.last) / 2);
       if (middle >= paths[side].size()) continue;
       out.push_back({on_floor(paths[side][middle]),
@@ -233,8 +234,8 @@ std::vector<Footprint> footprints_of(const Motion& motion,
   return out;
 }
 
-bool holds(const std::vector<retarget::FrameInterval>& runs, int frame) {
-  return std::ranges::any_of(runs, [=](const retarget::FrameInterval& run) {
+bool holds(const std::vector<FrameRange>& runs, int frame) {
+  return std::ranges::any_of(runs, [=](const FrameRange& run) {
     return run.first <= frame && frame <= run.last;
   });
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/frame_range.h"
 #include "core/resample.h"
 #include "retarget/body/find_soles.h"
 #include "retarget/motion/live_retarget.h"
@@ -56,10 +57,9 @@ struct Kept {
   int count = 0;
 };
 
-std::vector<retarget::FrameInterval> kept_of(
-    const std::vector<retarget::FrameInterval>& runs, const Kept& kept) {
-  std::vector<retarget::FrameInterval> out;
-  for (const retarget::FrameInterval& run : runs) {
+std::vector<FrameRange> kept_of(const std::vector<FrameRange>& runs, const Kept& kept) {
+  std::vector<FrameRange> out;
+  for (const FrameRange& run : runs) {
     // First frame that is not earlier, last frame that is not later.
     const int first =
         std::max(0, (run.first - kept.before + kept.multiple - 1) / kept.multiple);
@@ -87,7 +87,7 @@ template <class Found>
 std::vector<Found> kept_of(const std::vector<Found>& all, const Kept& kept) {
   std::vector<Found> out;
   for (Found one : all) {
-    const auto frames = kept_of(std::vector<retarget::FrameInterval>{one.frames}, kept);
+    const auto frames = kept_of(std::vector<FrameRange>{one.frames}, kept);
     if (frames.empty()) continue;
     one.frames = frames.front();
     out.push_back(one);

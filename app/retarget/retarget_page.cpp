@@ -11,6 +11,7 @@
 #include "app/pages/report_page.h"
 #include "app/retarget/balance_section.h"
 #include "app/retarget/motion_strip.h"
+#include "core/base/frame_range.h"
 
 namespace marey::app {
 namespace {
@@ -145,13 +146,13 @@ std::string figures_of(const RetargetRun& run) {
   return out + "</tbody></table></div>\n";
 }
 
-std::string bars_of(const std::vector<retarget::FrameInterval>& runs,
+std::string bars_of(const std::vector<FrameRange>& runs,
                     const char* side,
                     const char* part,
                     int row,
                     double hz) {
   std::string out;
-  for (const retarget::FrameInterval& run : runs) {
+  for (const FrameRange& run : runs) {
     out +=
         text_of("<rect x=\"%.0f\" width=\"%.0f\"", run.first, run.last - run.first + 1) +
         text_of(" y=\"%.1f\" height=\"8\"", 2.0 + 10.0 * row) + " class=\"" + side + " " +

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/nesting.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/nesting.h"
 
 namespace marey::app {
 

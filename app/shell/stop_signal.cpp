@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "app/shell/exit_codes.h"
-#include "recordings/text/atomic_file.h"
+#include "recordings/base/atomic_file.h"
 
 namespace marey::app {
 namespace {

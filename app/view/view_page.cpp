@@ -8,7 +8,7 @@
 
 #include "core/base/extension.h"
 #include "live/page/page_frame.h"
-#include "recordings/text/atomic_file.h"
+#include "recordings/base/atomic_file.h"
 
 namespace marey::app {
 namespace {

@@ -14,9 +14,9 @@
 #include "app/view/view_cameras.h"
 #include "app/view/view_figure.h"
 #include "core/base/extension.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/markers/marker_file.h"
 #include "recordings/motion/motion_tables.h"
-#include "recordings/text/atomic_file.h"
 
 namespace marey::app {
 namespace {

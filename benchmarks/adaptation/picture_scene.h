@@ -11,7 +11,7 @@
 #include "core/base/result.h"
 #include "core/pose.h"
 #include "core/skeleton.h"
-#include "recordings/text/mesh.h"
+#include "recordings/body/mesh.h"
 
 namespace marey {
 

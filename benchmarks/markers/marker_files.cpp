@@ -9,11 +9,11 @@
 
 #include <benchmark/benchmark.h>
 
+#include "recordings/base/atomic_file.h"
 #include "recordings/markers/c3d.h"
 #include "recordings/markers/c3d_markers.h"
 #include "recordings/markers/marker_file.h"
 #include "recordings/markers/trc.h"
-#include "recordings/text/atomic_file.h"
 
 namespace marey::recordings {
 namespace {

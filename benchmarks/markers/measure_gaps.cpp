@@ -23,9 +23,9 @@
 
 #include "core/base/quantile.h"
 #include "reconstruct/tracks/repair_gaps.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/csv_line.h"
 #include "recordings/markers/marker_file.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/csv_line.h"
 
 namespace marey {
 namespace {

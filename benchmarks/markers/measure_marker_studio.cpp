@@ -11,7 +11,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "core/pose.h"
-#include "recordings/text/atomic_file.h"
+#include "recordings/base/atomic_file.h"
 #include "tests/support/files/acclaim.h"
 
 namespace marey {

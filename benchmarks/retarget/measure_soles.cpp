@@ -15,6 +15,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "core/base/frame_range.h"
 #include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "recordings/gltf/gltf.h"
@@ -61,9 +62,9 @@ double worst_drift_mm(const Motion& motion,
                       const retarget::Contacts& contacts) {
   double worst_mm = 0.0;
   const auto add_slide = [&](std::optional<JointIndex> joint,
-                             const std::vector<retarget::FrameInterval>& runs) {
+                             const std::vector<FrameRange>& runs) {
     if (!joint) return;
-    for (const retarget::FrameInterval& run : runs) {
+    for (const FrameRange& run : runs) {
       glm::dvec3 began(0.0);
       for (int t = run.first; t <= run.last; ++t) {
         const auto world =

@@ -6,16 +6,11 @@
 #include <optional>
 #include <string>
 
+#include "core/base/frame_range.h"
 #include "core/base/ids.h"
 #include "core/base/time.h"
 
 namespace marey::capture {
-
-/// First and last frame, both included, counted from 0.
-struct FrameRange {
-  int first = 0;
-  int last = 0;
-};
 
 /// One camera's recording of a trial.
 struct CameraInput {

@@ -14,6 +14,7 @@
 
 #include "capture/boards/find_board_points.h"
 #include "capture/video/open_frames.h"
+#include "core/base/frame_range.h"
 
 namespace marey::capture {
 namespace {

@@ -15,6 +15,7 @@
 #include "capture/search/sample_frames.h"
 #include "capture/tags/detect_tags.h"
 #include "core/base/assert.h"
+#include "core/base/frame_range.h"
 
 namespace marey::capture {
 namespace {

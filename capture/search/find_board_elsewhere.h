@@ -8,6 +8,7 @@
 
 #include "capture/search/alternative_target.h"
 #include "capture/search/camera_input.h"
+#include "core/base/frame_range.h"
 #include "core/board.h"
 
 namespace marey::capture {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "capture/video/open_frames.h"
+#include "core/base/frame_range.h"
 
 namespace marey::capture {
 

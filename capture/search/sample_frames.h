@@ -10,6 +10,7 @@
 
 #include "capture/search/camera_input.h"
 #include "capture/video/frame_source.h"
+#include "core/base/frame_range.h"
 
 // Private to capture: samples a few frames of a recording.
 namespace marey::capture {

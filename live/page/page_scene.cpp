@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live/page/page_scene.h"
 
+#include "core/base/frame_range.h"
 #include "core/transform.h"
 #include "live/page/page_json.h"
 #include "live/page/wizard_object.h"
@@ -87,7 +88,7 @@ PageJson constraint_object(const PageConstraint& constraint) {
   return object;
 }
 
-PageJson span_array(const PageSpan& span) {
+PageJson span_array(const FrameRange& span) {
   return PageJson::array({span.first, span.last});
 }
 

@@ -10,6 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/base/frame_range.h"
 #include "core/camera.h"
 #include "core/provenance.h"
 #include "core/skeleton.h"
@@ -59,14 +60,8 @@ struct PageConstraint {
   std::optional<JointIndex> joint{};
 };
 
-/// Frames from first to last, both included.
-struct PageSpan {
-  int first = 0;
-  int last = 0;
-};
-
 struct PageGap {
-  PageSpan span;
+  FrameRange span;
   Source source = Source::kInferred;
 };
 
@@ -78,7 +73,7 @@ struct PageTrack {
 
 struct PageContact {
   std::string name{};
-  std::vector<PageSpan> spans{};
+  std::vector<FrameRange> spans{};
 };
 
 /// A curve over all frames. Non-finite values are gaps.

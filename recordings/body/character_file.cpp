@@ -11,9 +11,9 @@
 #include "core/base/degrees.h"
 #include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/toml_reader.h"
-#include "recordings/text/toml_writer.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/toml_reader.h"
+#include "recordings/base/toml_writer.h"
 
 namespace marey::recordings {
 namespace {

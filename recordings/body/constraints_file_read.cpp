@@ -5,11 +5,11 @@
 #include <map>
 #include <utility>
 
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/motion_limits.h"
+#include "recordings/base/xml_reader.h"
 #include "recordings/body/constraint_words.h"
 #include "recordings/body/constraints_file.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/motion_limits.h"
-#include "recordings/text/xml_reader.h"
 
 namespace marey::recordings {
 namespace {

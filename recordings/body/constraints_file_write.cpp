@@ -3,12 +3,12 @@
 #include <optional>
 
 #include "core/base/in_quotes.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/number_text.h"
+#include "recordings/base/text_reader.h"
+#include "recordings/base/xml_reader.h"
 #include "recordings/body/constraint_words.h"
 #include "recordings/body/constraints_file.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/number_text.h"
-#include "recordings/text/text_reader.h"
-#include "recordings/text/xml_reader.h"
 
 namespace marey::recordings {
 namespace {

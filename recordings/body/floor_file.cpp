@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "core/base/in_quotes.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/toml_reader.h"
-#include "recordings/text/toml_writer.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/toml_reader.h"
+#include "recordings/base/toml_writer.h"
 
 namespace marey::recordings {
 namespace {

@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/skeleton.h"
-#include "recordings/text/mesh.h"
+#include "recordings/body/mesh.h"
 
 namespace marey::recordings {
 

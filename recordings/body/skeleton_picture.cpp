@@ -15,8 +15,8 @@
 #include "core/base/extension.h"
 #include "core/base/in_quotes.h"
 #include "core/pose.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/text_reader.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/text_reader.h"
 
 namespace marey::recordings {
 namespace {

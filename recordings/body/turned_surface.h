@@ -11,7 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/humanoid.h"
-#include "recordings/text/mesh.h"
+#include "recordings/body/mesh.h"
 
 namespace marey::recordings {
 

@@ -9,7 +9,7 @@
 
 #include <tiny_gltf.h>
 
-#include "recordings/text/atomic_file.h"
+#include "recordings/base/atomic_file.h"
 
 namespace marey::recordings {
 namespace {

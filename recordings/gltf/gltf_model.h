@@ -19,7 +19,7 @@
 #include "core/base/result.h"
 #include "core/motion.h"
 #include "core/skeleton.h"
-#include "recordings/text/mesh.h"
+#include "recordings/body/mesh.h"
 
 namespace tinygltf {
 class Model;

@@ -14,13 +14,13 @@
 #include <glm/gtc/quaternion.hpp>
 #include <tiny_gltf.h>
 
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/motion_limits.h"
+#include "recordings/base/nesting.h"
 #include "recordings/gltf/gltf_extensions.h"
 #include "recordings/gltf/gltf_files.h"
 #include "recordings/gltf/gltf_model.h"
 #include "recordings/gltf/gltf_source.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/motion_limits.h"
-#include "recordings/text/nesting.h"
 
 namespace marey::recordings {
 namespace {

@@ -8,10 +8,10 @@
 #include <glm/gtc/quaternion.hpp>
 #include <tiny_gltf.h>
 
+#include "recordings/base/motion_limits.h"
 #include "recordings/gltf/gltf_model.h"
 #include "recordings/motion/bake_root_motion.h"
 #include "recordings/takes/meant_rate.h"
-#include "recordings/text/motion_limits.h"
 
 namespace marey::recordings {
 namespace {

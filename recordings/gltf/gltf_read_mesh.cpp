@@ -8,8 +8,8 @@
 #include <glm/mat3x3.hpp>
 #include <tiny_gltf.h>
 
+#include "recordings/base/motion_limits.h"
 #include "recordings/gltf/gltf_model.h"
-#include "recordings/text/motion_limits.h"
 
 namespace marey::recordings {
 namespace {

@@ -11,9 +11,9 @@
 #include <tiny_gltf.h>
 
 #include "core/base/in_quotes.h"
+#include "recordings/base/motion_limits.h"
+#include "recordings/base/text_reader.h"
 #include "recordings/gltf/gltf_model.h"
-#include "recordings/text/motion_limits.h"
-#include "recordings/text/text_reader.h"
 
 namespace marey::recordings {
 namespace {

@@ -12,10 +12,10 @@
 
 #include "core/base/assert.h"
 #include "core/pose.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/gltf/gltf.h"
 #include "recordings/gltf/gltf_builder.h"
 #include "recordings/gltf/gltf_source.h"
-#include "recordings/text/atomic_file.h"
 
 namespace marey::recordings {
 namespace {

@@ -11,8 +11,8 @@
 #include <glm/vec4.hpp>
 #include <tiny_gltf.h>
 
+#include "recordings/base/atomic_file.h"
 #include "recordings/gltf/gltf_model.h"
-#include "recordings/text/atomic_file.h"
 
 namespace marey::recordings {
 namespace {

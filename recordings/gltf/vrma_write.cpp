@@ -16,9 +16,9 @@
 #include "core/humanoid.h"
 #include "core/pose.h"
 #include "core/transform.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/gltf/gltf_builder.h"
 #include "recordings/gltf/vrma.h"
-#include "recordings/text/atomic_file.h"
 
 namespace marey::recordings {
 namespace {

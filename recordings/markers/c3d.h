@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "recordings/text/atomic_file.h"
+#include "recordings/base/atomic_file.h"
 
 namespace marey::recordings {
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <optional>
 
+#include "recordings/base/motion_limits.h"
 #include "recordings/markers/c3d_words.h"
-#include "recordings/text/motion_limits.h"
 
 namespace marey::recordings {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
+#include "recordings/base/motion_limits.h"
 #include "recordings/markers/c3d_markers.h"
 #include "recordings/markers/marker_labels.h"
-#include "recordings/text/motion_limits.h"
 
 namespace marey::recordings {
 namespace {

@@ -3,9 +3,9 @@
 #include "recordings/markers/marker_file.h"
 
 #include "core/base/extension.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/markers/c3d_markers.h"
 #include "recordings/markers/trc.h"
-#include "recordings/text/atomic_file.h"
 
 namespace marey::recordings {
 namespace {

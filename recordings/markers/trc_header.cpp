@@ -9,9 +9,9 @@
 
 #include "core/base/assert.h"
 #include "core/base/lower_case.h"
-#include "recordings/text/motion_limits.h"
-#include "recordings/text/text_reader.h"
-#include "recordings/text/word_text.h"
+#include "recordings/base/motion_limits.h"
+#include "recordings/base/text_reader.h"
+#include "recordings/base/word_text.h"
 
 namespace marey::recordings {
 namespace {

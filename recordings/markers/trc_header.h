@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "recordings/base/table_cells.h"
 #include "recordings/markers/marker_file.h"
-#include "recordings/text/trc_cells.h"
 
 namespace marey::recordings {
 

@@ -7,12 +7,12 @@
 
 #include "core/base/assert.h"
 #include "core/base/in_quotes.h"
+#include "recordings/base/motion_limits.h"
+#include "recordings/base/table_cells.h"
+#include "recordings/base/text_reader.h"
 #include "recordings/markers/marker_labels.h"
 #include "recordings/markers/trc.h"
 #include "recordings/markers/trc_header.h"
-#include "recordings/text/motion_limits.h"
-#include "recordings/text/text_reader.h"
-#include "recordings/text/trc_cells.h"
 
 namespace marey::recordings {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "core/base/assert.h"
+#include "recordings/base/number_text.h"
+#include "recordings/base/text_reader.h"
 #include "recordings/markers/trc.h"
-#include "recordings/text/number_text.h"
-#include "recordings/text/text_reader.h"
 
 namespace marey::recordings {
 namespace {

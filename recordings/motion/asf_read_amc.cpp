@@ -13,12 +13,12 @@
 #include "core/base/degrees.h"
 #include "core/base/extension.h"
 #include "core/base/lower_case.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/motion_limits.h"
+#include "recordings/base/text_reader.h"
+#include "recordings/base/word_text.h"
 #include "recordings/motion/asf.h"
 #include "recordings/motion/bake_root_motion.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/motion_limits.h"
-#include "recordings/text/text_reader.h"
-#include "recordings/text/word_text.h"
 
 namespace marey::recordings {
 namespace {

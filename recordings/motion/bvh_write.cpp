@@ -12,10 +12,10 @@
 #include "core/base/assert.h"
 #include "core/base/degrees.h"
 #include "core/pose.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/number_text.h"
 #include "recordings/motion/bvh.h"
 #include "recordings/motion/bvh_names.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/number_text.h"
 
 namespace marey::recordings {
 namespace {

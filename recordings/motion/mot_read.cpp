@@ -8,11 +8,11 @@
 #include "core/base/degrees.h"
 #include "core/base/in_quotes.h"
 #include "core/base/lower_case.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/table_cells.h"
+#include "recordings/base/text_reader.h"
+#include "recordings/base/word_text.h"
 #include "recordings/motion/mot.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/text_reader.h"
-#include "recordings/text/trc_cells.h"
-#include "recordings/text/word_text.h"
 
 namespace marey::recordings {
 namespace {

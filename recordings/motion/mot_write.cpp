@@ -10,9 +10,9 @@
 #include "core/base/assert.h"
 #include "core/base/degrees.h"
 #include "core/base/lower_case.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/number_text.h"
 #include "recordings/motion/mot.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/number_text.h"
 
 namespace marey::recordings {
 namespace {

@@ -12,9 +12,9 @@
 
 #include "core/base/time.h"
 #include "core/pose.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/csv_line.h"
-#include "recordings/text/number_text.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/csv_line.h"
+#include "recordings/base/number_text.h"
 
 namespace marey::recordings {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "recordings/text/text_reader.h"
+#include "recordings/base/text_reader.h"
 
 namespace marey::recordings {
 namespace {

@@ -9,11 +9,11 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/humanoid.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/motion_limits.h"
+#include "recordings/base/zip_archive.h"
 #include "recordings/motion/npy_array.h"
 #include "recordings/motion/npz.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/motion_limits.h"
-#include "recordings/text/zip_archive.h"
 
 namespace marey::recordings {
 namespace {

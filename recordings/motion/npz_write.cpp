@@ -10,9 +10,9 @@
 
 #include "core/base/assert.h"
 #include "core/pose.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/zip_archive.h"
 #include "recordings/motion/npz.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/zip_archive.h"
 
 namespace marey::recordings {
 namespace {

@@ -12,7 +12,7 @@
 #include <cairo.h>
 
 #include "core/base/assert.h"
-#include "recordings/text/atomic_file.h"
+#include "recordings/base/atomic_file.h"
 
 namespace marey::recordings {
 namespace {

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "core/base/assert.h"
+#include "recordings/base/toml_writer.h"
 #include "recordings/print/print_marks.h"
 #include "recordings/print/print_tiles.h"
-#include "recordings/text/toml_writer.h"
 
 namespace marey::recordings {
 namespace {

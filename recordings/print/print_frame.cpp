@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <sstream>
 
-#include "recordings/text/number_text.h"
+#include "recordings/base/number_text.h"
 
 namespace marey::recordings {
 namespace {

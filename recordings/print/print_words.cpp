@@ -14,7 +14,7 @@
 #include "core/base/in_quotes.h"
 #include "core/base/lower_case.h"
 #include "core/nearest_word.h"
-#include "recordings/text/word_text.h"
+#include "recordings/base/word_text.h"
 
 namespace marey::recordings {
 namespace {

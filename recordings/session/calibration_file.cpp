@@ -13,11 +13,11 @@
 #include <glm/mat3x3.hpp>
 
 #include "core/base/in_quotes.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/toml_reader.h"
+#include "recordings/base/toml_writer.h"
 #include "recordings/session/calibration_import.h"
 #include "recordings/session/camera_numbers.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/toml_reader.h"
-#include "recordings/text/toml_writer.h"
 
 namespace marey::recordings {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "core/base/in_quotes.h"
+#include "recordings/base/opencv_xml.h"
+#include "recordings/base/yaml_reader.h"
 #include "recordings/session/camera_numbers.h"
-#include "recordings/text/opencv_xml.h"
-#include "recordings/text/yaml_reader.h"
 
 namespace marey::recordings {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "core/base/result.h"
+#include "recordings/base/toml_reader.h"
 #include "recordings/session/calibration.h"
-#include "recordings/text/toml_reader.h"
 
 namespace marey::recordings {
 

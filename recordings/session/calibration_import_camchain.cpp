@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "core/base/in_quotes.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/number_text.h"
+#include "recordings/base/yaml_reader.h"
 #include "recordings/session/calibration_import.h"
 #include "recordings/session/camera_numbers.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/number_text.h"
-#include "recordings/text/yaml_reader.h"
 
 namespace marey::recordings {
 namespace {

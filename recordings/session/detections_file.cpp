@@ -10,9 +10,9 @@
 #include <system_error>
 #include <utility>
 
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/csv_line.h"
-#include "recordings/text/number_text.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/csv_line.h"
+#include "recordings/base/number_text.h"
 
 namespace marey::recordings {
 namespace {

@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "core/base/extension.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/sqlite.h"
+#include "recordings/base/toml_reader.h"
 #include "recordings/takes/live_take_schema.h"
 #include "recordings/takes/take_schema.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/sqlite.h"
-#include "recordings/text/toml_reader.h"
 
 namespace marey::recordings {
 namespace {

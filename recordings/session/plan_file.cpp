@@ -11,10 +11,10 @@
 #include <glm/mat3x3.hpp>
 
 #include "core/base/in_quotes.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/text_reader.h"
+#include "recordings/base/toml_reader.h"
 #include "recordings/session/calibration_file.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/text_reader.h"
-#include "recordings/text/toml_reader.h"
 
 namespace marey::recordings {
 namespace {

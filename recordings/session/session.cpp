@@ -8,9 +8,9 @@
 #include "core/base/assert.h"
 #include "core/base/in_quotes.h"
 #include "core/base/name_pattern.h"
+#include "recordings/base/text_reader.h"
+#include "recordings/base/toml_reader.h"
 #include "recordings/takes/take_file.h"
-#include "recordings/text/text_reader.h"
-#include "recordings/text/toml_reader.h"
 
 namespace marey::recordings {
 namespace {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/frame_range.h"
 #include "core/base/ids.h"
 #include "core/base/result.h"
 #include "core/base/time.h"
@@ -31,12 +32,6 @@ enum class TrialKind {
 
 /// Returns the word of session.toml: "range-of-motion".
 [[nodiscard]] std::string_view name(TrialKind kind);
-
-/// Frames first to last, both included, counted from 0.
-struct FrameRange {
-  int first = 0;
-  int last = 0;
-};
 
 /// One camera's recording of a trial.
 struct TrialVideo {

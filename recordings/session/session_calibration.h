@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
+#include "recordings/base/toml_reader.h"
 #include "recordings/session/session.h"
-#include "recordings/text/toml_reader.h"
 
 // Private to recordings.
 namespace marey::recordings {

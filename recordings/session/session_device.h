@@ -6,8 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "recordings/base/toml_reader.h"
 #include "recordings/session/session.h"
-#include "recordings/text/toml_reader.h"
 
 namespace marey::recordings {
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/tag_family.h"
+#include "recordings/base/toml_reader.h"
 #include "recordings/session/session.h"
-#include "recordings/text/toml_reader.h"
 
 // Private to recordings.
 namespace marey::recordings {

@@ -10,15 +10,15 @@
 #include "core/base/in_quotes.h"
 #include "core/humanoid.h"
 #include "core/nearest_word.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/toml_reader.h"
+#include "recordings/base/word_text.h"
 #include "recordings/session/session.h"
 #include "recordings/session/session_calibration.h"
 #include "recordings/session/session_device.h"
 #include "recordings/session/session_family.h"
 #include "recordings/session/session_target.h"
 #include "recordings/session/trial_rules.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/toml_reader.h"
-#include "recordings/text/word_text.h"
 
 namespace marey::recordings {
 namespace fs = std::filesystem;

@@ -11,8 +11,8 @@
 #include "core/base/in_quotes.h"
 #include "core/humanoid.h"
 #include "core/nearest_word.h"
-#include "recordings/text/number_text.h"
-#include "recordings/text/word_text.h"
+#include "recordings/base/number_text.h"
+#include "recordings/base/word_text.h"
 
 namespace marey::recordings {
 namespace {

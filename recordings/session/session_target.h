@@ -6,9 +6,9 @@
 #include <string>
 
 #include "core/board.h"
+#include "recordings/base/toml_reader.h"
 #include "recordings/session/session.h"
 #include "recordings/session/session_family.h"
-#include "recordings/text/toml_reader.h"
 
 // Private to recordings.
 namespace marey::recordings {

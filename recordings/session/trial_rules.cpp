@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/base/in_quotes.h"
-#include "recordings/text/text_reader.h"
+#include "recordings/base/text_reader.h"
 
 namespace marey::recordings {
 namespace {

@@ -12,9 +12,9 @@
 
 #include "core/base/assert.h"
 #include "core/base/in_quotes.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/csv_line.h"
-#include "recordings/text/text_reader.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/csv_line.h"
+#include "recordings/base/text_reader.h"
 
 namespace marey::recordings {
 namespace {

@@ -6,10 +6,10 @@
 #include <system_error>
 #include <utility>
 
+#include "recordings/base/sqlite.h"
 #include "recordings/takes/live_take.h"
 #include "recordings/takes/live_take_schema.h"
-#include "recordings/text/sqlite.h"
-#include "recordings/text/view_bytes.h"
+#include "recordings/takes/view_bytes.h"
 
 namespace marey::recordings {
 namespace {

@@ -3,10 +3,10 @@
 #include <mutex>
 #include <utility>
 
+#include "recordings/base/sqlite.h"
 #include "recordings/takes/live_take.h"
 #include "recordings/takes/live_take_schema.h"
-#include "recordings/text/sqlite.h"
-#include "recordings/text/view_bytes.h"
+#include "recordings/takes/view_bytes.h"
 
 namespace marey::recordings {
 namespace {
@@ -61,11 +61,11 @@ LiveTakeWriter::~LiveTakeWriter() = default;
 
 Result<LiveTakeWriter> LiveTakeWriter::create(const std::filesystem::path& path,
                                               const LiveTakeHead& head) {
-  auto database = begin_recorded(
-      path,
-      {kLiveTakeApplication, kLiveTakeVersion, kLiveTakeSchema},
-      "record into another folder, or move the old one away",
-      [&head](sqlite3* raw) { return write_head(raw, head); });
+  auto database =
+      begin_recorded(path,
+                     {kLiveTakeApplication, kLiveTakeVersion, kLiveTakeSchema},
+                     "record into another folder, or move the old one away",
+                     [&head](sqlite3* raw) { return write_head(raw, head); });
   if (!database) return database.error();
   // Created only now, because the statement needs its table.
   return LiveTakeWriter(std::make_unique<Impl>(path.string(), *std::move(database)));

@@ -6,9 +6,9 @@
 #include <system_error>
 #include <utility>
 
+#include "recordings/base/sqlite.h"
 #include "recordings/takes/take_file.h"
 #include "recordings/takes/take_schema.h"
-#include "recordings/text/sqlite.h"
 
 namespace marey::recordings {
 namespace {

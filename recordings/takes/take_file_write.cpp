@@ -4,9 +4,9 @@
 #include <mutex>
 #include <utility>
 
+#include "recordings/base/sqlite.h"
 #include "recordings/takes/take_file.h"
 #include "recordings/takes/take_schema.h"
-#include "recordings/text/sqlite.h"
 
 namespace marey::recordings {
 
@@ -93,11 +93,11 @@ TakeWriter::~TakeWriter() = default;
 
 Result<TakeWriter> TakeWriter::create(const std::filesystem::path& path,
                                       const Take& take) {
-  auto database = begin_recorded(
-      path,
-      {kTakeApplication, kTakeVersion, kTakeSchema},
-      "record under another trial's name, or move the old one away",
-      [&take](sqlite3* raw) { return write_head(raw, take); });
+  auto database =
+      begin_recorded(path,
+                     {kTakeApplication, kTakeVersion, kTakeSchema},
+                     "record under another trial's name, or move the old one away",
+                     [&take](sqlite3* raw) { return write_head(raw, take); });
   if (!database) return database.error();
   // Created only now, because the statements need their tables.
   return TakeWriter(

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/frame_range.h"
 #include "core/nearest_word.h"
 #include "core/pose.h"
 #include "retarget/constraints/measure_constraint.h"
@@ -31,7 +32,7 @@ class TrackDriver {
     while (next_ < track_.bears.size() &&
            (next_ == 0 ||
             time_s(frame) >= stop_s(track_.bears[next_ - 1]) + when.stop_duration_s)) {
-      const FrameInterval& run = track_.bears[next_++];
+      const FrameRange& run = track_.bears[next_++];
       handle_.start(time_s(run.first) - when.start_duration_s - slack_s());
       handle_.stop(stop_s(run));
     }
@@ -44,7 +45,7 @@ class TrackDriver {
   }
   /// The first and the last contact frame must be fully active despite rounding.
   [[nodiscard]] double slack_s() const { return 0.01 / motion_.rate.hz; }
-  [[nodiscard]] double stop_s(const FrameInterval& run) const {
+  [[nodiscard]] double stop_s(const FrameRange& run) const {
     return time_s(run.last) + slack_s();
   }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/assert.h"
+#include "core/base/frame_range.h"
 #include "core/humanoid.h"
 #include "retarget/constraints/constraint_error.h"
 #include "retarget/feet/plan_feet.h"
@@ -18,9 +19,9 @@ using B = HumanBone;
 
 constexpr std::array<B, 2> kFeet{B::kLeftFoot, B::kRightFoot};
 // Merges runs that are separated by less than `gap` frames.
-std::vector<FrameInterval> merged(const std::vector<FrameInterval>& runs, double gap) {
-  std::vector<FrameInterval> out;
-  for (const FrameInterval& run : runs) {
+std::vector<FrameRange> merged(const std::vector<FrameRange>& runs, double gap) {
+  std::vector<FrameRange> out;
+  for (const FrameRange& run : runs) {
     if (!out.empty() && run.first - out.back().last <= gap) {
       out.back().last = run.last;
     } else {
@@ -30,12 +31,12 @@ std::vector<FrameInterval> merged(const std::vector<FrameInterval>& runs, double
   return out;
 }
 
-std::vector<FrameInterval> common(const std::vector<FrameInterval>& a,
-                                  const std::vector<FrameInterval>& b) {
-  std::vector<FrameInterval> out;
-  for (const FrameInterval& x : a) {
-    for (const FrameInterval& y : b) {
-      const FrameInterval both{std::max(x.first, y.first), std::min(x.last, y.last)};
+std::vector<FrameRange> common(const std::vector<FrameRange>& a,
+                               const std::vector<FrameRange>& b) {
+  std::vector<FrameRange> out;
+  for (const FrameRange& x : a) {
+    for (const FrameRange& y : b) {
+      const FrameRange both{std::max(x.first, y.first), std::min(x.last, y.last)};
       if (both.first <= both.last) out.push_back(both);
     }
   }
@@ -43,10 +44,10 @@ std::vector<FrameInterval> common(const std::vector<FrameInterval>& a,
 }
 
 // Returns the runs with the floor part of each.
-std::vector<FloorStance> standing(const std::vector<FrameInterval>& runs,
+std::vector<FloorStance> standing(const std::vector<FrameRange>& runs,
                                   const std::vector<FloorStance>& stances) {
   std::vector<FloorStance> out;
-  for (const FrameInterval& run : runs) {
+  for (const FrameRange& run : runs) {
     for (const FloorStance& stance : stances) {
       if (run.first < stance.frames.first || run.last > stance.frames.last) continue;
       out.push_back({run, stance.part});
@@ -65,14 +66,14 @@ struct Bearing {
   bool turns;
   bool fades_in = true;
   bool fades_out = true;
-  std::vector<FrameInterval> runs{};
+  std::vector<FrameRange> runs{};
 };
 
 // Adds the runs in which one joint bears alone, with the adjacent frames of the flat
 // foot. Both hold in these frames, so that the transition has no fade; fades are for feet
 // in the air.
-void add_alone(const std::vector<FrameInterval>& runs,
-               const std::vector<FrameInterval>& flat,
+void add_alone(const std::vector<FrameRange>& runs,
+               const std::vector<FrameRange>& flat,
                const Bearing& point,
                std::vector<Bearing>& ways) {
   std::array<Bearing, 4> kinds{point, point, point, point};
@@ -83,10 +84,10 @@ void add_alone(const std::vector<FrameInterval>& runs,
     kind.fades_out = !to_flat;
     kind.runs.push_back({first, last});
   };
-  for (const FrameInterval& run : runs) {
+  for (const FrameRange& run : runs) {
     int from = run.first;
     bool from_flat = false;
-    for (const FrameInterval& both : flat) {
+    for (const FrameRange& both : flat) {
       if (both.first < run.first || both.last > run.last) continue;
       if (both.first > from) add(from, both.first, from_flat, true);
       from = both.last;
@@ -125,7 +126,7 @@ std::vector<SupportTrack> plan_supports(const Motion& reference,
     const glm::dvec3 ball = foot.ball_from_ankle_in_t_pose;
     // Heel and ball come first. The first of several supports of one limb is closed
     // exactly, and these hold while the flat foot fades in or out next to them.
-    const std::vector<FrameInterval> flat = common(bears.heel, bears.ball);
+    const std::vector<FrameRange> flat = common(bears.heel, bears.ball);
     std::vector<Bearing> ways;
     add_alone(bears.heel, flat, {"heel", glm::dvec3(0.0), true}, ways);
     add_alone(bears.ball, flat, {"ball", ball, true}, ways);

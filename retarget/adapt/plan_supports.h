@@ -8,6 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/base/frame_range.h"
 #include "core/constraint.h"
 #include "core/floor.h"
 #include "core/motion.h"
@@ -24,7 +25,7 @@ struct SupportTrack {
   /// transition to or from the flat foot that shares a frame with it.
   Constraint constraint;
   /// Intervals of contact, ascending, separated by more than the ramps between them.
-  std::vector<FrameInterval> bears;
+  std::vector<FrameRange> bears;
   /// Runs of frames of the single stances, and the floor part of each.
   std::vector<FloorStance> stands;
   /// Target position of the point and rotation of the foot from the T-pose, per frame.

@@ -17,6 +17,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/frame_range.h"
 #include "core/transform.h"
 
 namespace marey::retarget {
@@ -38,7 +39,7 @@ glm::dvec3 rounded(const glm::dvec3& p_m) {
 
 struct Stance {
   const SupportTrack* track = nullptr;
-  FrameInterval frames;
+  FrameRange frames;
 };
 
 // Converts a name such as "found leftFoot ball after flat" to "leftFoot ball".

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/frame_range.h"
 #include "core/pose.h"
 
 namespace marey::retarget {
@@ -70,8 +71,8 @@ double resting_height_m(const Path& path, double slow_m_per_s) {
   return *decile;
 }
 
-std::vector<FrameInterval> runs(const std::vector<char>& on) {
-  std::vector<FrameInterval> out;
+std::vector<FrameRange> runs(const std::vector<char>& on) {
+  std::vector<FrameRange> out;
   for (int t = 0; t < static_cast<int>(on.size()); ++t) {
     if (!on[static_cast<std::size_t>(t)]) continue;
     if (!out.empty() && out.back().last == t - 1) {
@@ -106,7 +107,7 @@ std::vector<double> floor_under(const Path& ankle,
     slow.push_back(speed < slow_m_per_s && height_m < max_m ? 1 : 0);
   }
   std::vector<double> floor_m(above.size(), 0.0);
-  for (const FrameInterval& run : runs(slow)) {
+  for (const FrameRange& run : runs(slow)) {
     std::vector<double> heights(above.begin() + run.first, above.begin() + run.last + 1);
     const auto decile =
         heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 10);
@@ -120,11 +121,11 @@ std::vector<double> floor_under(const Path& ankle,
 
 // Returns the frames that keep a contact, in runs that contain at least one that starts
 // it.
-std::vector<FrameInterval> resting_runs(const Path& path,
-                                        std::span<const double> floor_m,
-                                        const BodyMap& map,
-                                        double hz,
-                                        const DetectContactsOptions& o) {
+std::vector<FrameRange> resting_runs(const Path& path,
+                                     std::span<const double> floor_m,
+                                     const BodyMap& map,
+                                     double hz,
+                                     const DetectContactsOptions& o) {
   std::vector<char> start(path.p_in_world.size(), 0);
   std::vector<char> keep(path.p_in_world.size(), 0);
   for (std::size_t t = 0; t < keep.size(); ++t) {
@@ -142,8 +143,8 @@ std::vector<FrameInterval> resting_runs(const Path& path,
     keep[t] = keeps ? 1 : 0;
     start[t] = starts ? 1 : 0;
   }
-  std::vector<FrameInterval> merged;
-  for (const FrameInterval& run : runs(keep)) {
+  std::vector<FrameRange> merged;
+  for (const FrameRange& run : runs(keep)) {
     if (std::find(start.begin() + run.first, start.begin() + run.last + 1, 1) ==
         start.begin() + run.last + 1) {
       continue;
@@ -154,7 +155,7 @@ std::vector<FrameInterval> resting_runs(const Path& path,
       merged.push_back(run);
     }
   }
-  std::erase_if(merged, [&](const FrameInterval& run) {
+  std::erase_if(merged, [&](const FrameRange& run) {
     return run.last - run.first + 1 < o.min_contact_s * hz;
   });
   return merged;
@@ -162,13 +163,13 @@ std::vector<FrameInterval> resting_runs(const Path& path,
 
 // Returns the frames in which the ball bears alone and the ankle is slow, in runs over
 // which it hardly moves.
-std::vector<FrameInterval> heel_up_runs(const Path& ankle,
-                                        const FootContacts& foot,
-                                        const BodyMap& map,
-                                        double hz,
-                                        const DetectContactsOptions& o) {
+std::vector<FrameRange> heel_up_runs(const Path& ankle,
+                                     const FootContacts& foot,
+                                     const BodyMap& map,
+                                     double hz,
+                                     const DetectContactsOptions& o) {
   std::vector<char> still(ankle.p_in_world.size(), 0);
-  for (const FrameInterval& run : foot.ball) {
+  for (const FrameRange& run : foot.ball) {
     for (int k = run.first; k <= run.last; ++k) {
       const auto t = static_cast<std::size_t>(k);
       const bool is_slow =
@@ -176,11 +177,11 @@ std::vector<FrameInterval> heel_up_runs(const Path& ankle,
       still[t] = is_slow ? 1 : 0;
     }
   }
-  for (const FrameInterval& run : foot.heel) {
+  for (const FrameRange& run : foot.heel) {
     std::fill(still.begin() + run.first, still.begin() + run.last + 1, char{0});
   }
-  std::vector<FrameInterval> out = runs(still);
-  std::erase_if(out, [&](const FrameInterval& run) {
+  std::vector<FrameRange> out = runs(still);
+  std::erase_if(out, [&](const FrameRange& run) {
     if (run.last - run.first + 1 < o.min_contact_s * hz) return true;
     glm::dvec3 mean(0.0);
     for (int k = run.first; k <= run.last; ++k) {
@@ -197,10 +198,10 @@ std::vector<FrameInterval> heel_up_runs(const Path& ankle,
   return out;
 }
 
-std::vector<FrameInterval> either(const FootContacts& foot, int frame_count) {
+std::vector<FrameRange> either(const FootContacts& foot, int frame_count) {
   std::vector<char> on(static_cast<std::size_t>(frame_count), 0);
   for (const auto* part : {&foot.heel, &foot.ball}) {
-    for (const FrameInterval& run : *part) {
+    for (const FrameRange& run : *part) {
       std::fill(on.begin() + run.first, on.begin() + run.last + 1, char{1});
     }
   }

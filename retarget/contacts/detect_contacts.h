@@ -5,26 +5,21 @@
 #include <array>
 #include <vector>
 
+#include "core/base/frame_range.h"
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
 
 namespace marey::retarget {
 
-/// A run of poses of a motion, both ends included.
-struct FrameInterval {
-  int first = 0;
-  int last = 0;
-};
-
 /// Contacts of one foot with the floor, ascending and disjoint. A foot flat on the floor
 /// has both heel and ball contact.
 struct FootContacts {
-  std::vector<FrameInterval> heel;  ///< The ankle rests.
-  std::vector<FrameInterval> ball;  ///< The toe joint rests (without toes: as the heel).
-  std::vector<FrameInterval> stance;  ///< Heel or ball.
+  std::vector<FrameRange> heel;    ///< The ankle rests.
+  std::vector<FrameRange> ball;    ///< The toe joint rests (without toes: as the heel).
+  std::vector<FrameRange> stance;  ///< Heel or ball.
   /// The ball rests and the raised heel does not move: within `ball`, disjoint from
   /// `heel`.
-  std::vector<FrameInterval> heel_up;
+  std::vector<FrameRange> heel_up;
   double ankle_height_m = 0.0;  ///< World Y of the ankle when it rests.
   double ball_height_m = 0.0;   ///< World Y of the toe joint when it rests.
 };

@@ -8,16 +8,17 @@
 #include <vector>
 
 #include "core/base/assert.h"
+#include "core/base/frame_range.h"
 #include "retarget/contacts/detect_contacts.h"
 
 namespace marey::retarget {
 
 /// Returns 1 for each frame that lies in one of the runs, else 0. Linear in frames.
 /// Precondition: runs lie within 0 to count - 1.
-[[nodiscard]] inline std::vector<char> frame_marks(std::span<const FrameInterval> runs,
+[[nodiscard]] inline std::vector<char> frame_marks(std::span<const FrameRange> runs,
                                                    std::size_t count) {
   std::vector<char> on(count, 0);
-  for (const FrameInterval& run : runs) {
+  for (const FrameRange& run : runs) {
     MAREY_ASSERT(run.first >= 0 && run.last < static_cast<int>(count));
     std::fill(on.begin() + run.first, on.begin() + run.last + 1, char{1});
   }

@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/base/frame_range.h"
 #include "core/base/ids.h"
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
@@ -44,7 +45,7 @@ using ContactLabels = std::array<std::vector<char>, kContactPoints>;
 /// One contact of one point.
 struct ContactDrift {
   int point = 0;  ///< Index as in kContactBones.
-  FrameInterval frames;
+  FrameRange frames;
   double drift_mm = 0.0;  ///< Maximum horizontal distance from its start.
 };
 

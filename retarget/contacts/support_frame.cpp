@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/base/frame_range.h"
 #include "retarget/base/smooth_step.h"
 #include "retarget/body/rotation_from_t_pose.h"
 
@@ -30,11 +31,9 @@ glm::dvec2 in_frame(const SupportFrame& frame, const glm::dvec2& p) {
   return {glm::dot(off, aside_of(frame.ahead)), glm::dot(off, frame.ahead)};
 }
 
-std::vector<double> ramps(const std::vector<FrameInterval>& runs,
-                          int count,
-                          double ramp) {
+std::vector<double> ramps(const std::vector<FrameRange>& runs, int count, double ramp) {
   std::vector<double> out(static_cast<std::size_t>(count), 0.0);
-  for (const FrameInterval& run : runs) {
+  for (const FrameRange& run : runs) {
     for (int t = run.first; t <= run.last; ++t) {
       const double in = run.first == 0 ? 1.0 : (t - run.first + 1) / ramp;
       const double left = run.last == count - 1 ? 1.0 : (run.last - t + 1) / ramp;

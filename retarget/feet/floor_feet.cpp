@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/frame_range.h"
 #include "core/transform.h"
 #include "retarget/base/smooth_step.h"
 #include "retarget/feet/floor_at.h"
@@ -49,18 +50,18 @@ struct FloorFeetTask {
   }
 };
 
-bool holds(const FrameInterval& run, int frame) {
+bool holds(const FrameRange& run, int frame) {
   return run.first <= frame && frame <= run.last;
 }
 
 // Returns the point of a stance that decides on which part it stands.
 glm::dvec3 pivot_of(const FloorFeetTask& task,
                     std::size_t side,
-                    const FrameInterval& stance) {
+                    const FrameRange& stance) {
   const auto& flat = task.flat[side];
   glm::dvec3 p(0.0);
   bool found = false;
-  for (const FrameInterval& run : task.contacts.feet[side].heel) {
+  for (const FrameRange& run : task.contacts.feet[side].heel) {
     const int t = std::max(run.first, stance.first);
     if (found || t > std::min(run.last, stance.last)) continue;
     p = flat[static_cast<std::size_t>(t)].ankle_in_world;
@@ -82,7 +83,7 @@ glm::dquat turn_to(const glm::dvec3& normal, double max_rad) {
 
 Carry land(const FloorFeetTask& task,
            std::size_t side,
-           const FrameInterval& stance,
+           const FrameRange& stance,
            const glm::dvec2& carried_xz_m) {
   Carry carry;
   carry.pivot = pivot_of(task, side, stance);

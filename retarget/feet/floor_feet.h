@@ -5,8 +5,9 @@
 #include <array>
 #include <vector>
 
-#include "core/floor.h"
+#include "core/base/frame_range.h"
 #include "core/base/time.h"
+#include "core/floor.h"
 #include "retarget/body/body_map.h"
 #include "retarget/contacts/detect_contacts.h"
 #include "retarget/feet/foot_plan.h"
@@ -15,7 +16,7 @@ namespace marey::retarget {
 
 /// A stance, or a section of one, and the floor part that it stands on.
 struct FloorStance {
-  FrameInterval frames;
+  FrameRange frames;
   FloorPartIndex part;
 };
 

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/frame_range.h"
 #include "core/transform.h"
 #include "retarget/base/smooth_step.h"
 #include "retarget/contacts/frame_marks.h"
@@ -108,8 +109,8 @@ struct FootPlanTask {
   const FootPlanOptions& options;
   std::vector<char> heel;  // Per frame: 1 if it bears.
   std::vector<char> ball;
-  std::vector<FrameInterval> heel_up;  // Runs in which a foot on its ball does not move.
-  std::vector<Footprint> print;        // Footprint of each frame in a stance.
+  std::vector<FrameRange> heel_up;  // Runs in which a foot on its ball does not move.
+  std::vector<Footprint> print;     // Footprint of each frame in a stance.
 
   [[nodiscard]] bool bears(std::size_t t) const { return heel[t] || ball[t]; }
   [[nodiscard]] bool flat(std::size_t t) const { return heel[t] && ball[t]; }
@@ -117,7 +118,7 @@ struct FootPlanTask {
 
 // Returns the mean rotation of the reference foot, relative to the footprint's heading,
 // over a run in which it turns only with its footprint.
-glm::dquat mean_foot(const FootPlanTask& task, const FrameInterval& run) {
+glm::dquat mean_foot(const FootPlanTask& task, const FrameRange& run) {
   const auto off_print = [&](int k) {
     const auto t = static_cast<std::size_t>(k);
     return glm::conjugate(task.print[t].heading) * task.reference[t].foot;
@@ -164,12 +165,11 @@ void turn(const FootPlanTask& task, std::vector<FootPlace>& out) {
     if (task.flat(t)) foot_turn[t] = turn_to(t, heading, reference.foot);
     if (task.ball[t]) toes_turn[t] = turn_to(t, heading, reference.toes);
   }
-  for (const FrameInterval& run : task.heel_up) {
+  for (const FrameRange& run : task.heel_up) {
     const glm::dquat still = mean_foot(task, run);
     for (int k = run.first; k <= run.last; ++k) {
       const auto t = static_cast<std::size_t>(k);
-      foot_turn[t] =
-          turn_to(t, task.print[t].heading * still, task.reference[t].foot);
+      foot_turn[t] = turn_to(t, task.print[t].heading * still, task.reference[t].foot);
     }
   }
   const auto foot = bridge(std::move(foot_turn), task.hz, task.options);
@@ -240,17 +240,16 @@ std::vector<FootPlace> plan_foot(std::span<const FootPlace> reference,
   MAREY_ASSERT(rate.hz > 0.0 && options.blend_s > 0.0);
   const std::size_t count = reference.size();
   FootPlanTask task{reference,
-            foot,
-            leg_length_m,
-            rate.hz,
-            options,
-            frame_marks(contacts.heel, count),
-            frame_marks(contacts.ball, count),
-            contacts.heel_up,
-            std::vector<Footprint>(count)};
-  for (const FrameInterval& run : contacts.stance) {
-    const auto prints =
-        footprints({reference, task.heel, task.ball}, run, foot, rate);
+                    foot,
+                    leg_length_m,
+                    rate.hz,
+                    options,
+                    frame_marks(contacts.heel, count),
+                    frame_marks(contacts.ball, count),
+                    contacts.heel_up,
+                    std::vector<Footprint>(count)};
+  for (const FrameRange& run : contacts.stance) {
+    const auto prints = footprints({reference, task.heel, task.ball}, run, foot, rate);
     std::ranges::copy(prints, task.print.begin() + run.first);
   }
   std::vector<FootPlace> out(count);

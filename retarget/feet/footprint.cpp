@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/frame_range.h"
 
 namespace marey::retarget {
 namespace {
@@ -31,7 +32,7 @@ glm::dvec3 level(const glm::dvec3& v) {
 // One stance. Frames are counted from its first.
 struct FootprintStance {
   const StandingFootPath& path;
-  const FrameInterval& run;
+  const FrameRange& run;
   const FootMap& foot;
 
   [[nodiscard]] std::size_t count() const {
@@ -88,9 +89,9 @@ Yaws yaws_of(const FootprintStance& stance) {
     out.rad[k] = yaw;
     out.known[k] = 1;
     for (std::size_t j = before ? *before + 1 : 0; j < k; ++j) {
-      const double share = before ? static_cast<double>(j - *before) /
-                                        static_cast<double>(k - *before)
-                                  : 1.0;
+      const double share =
+          before ? static_cast<double>(j - *before) / static_cast<double>(k - *before)
+                 : 1.0;
       out.rad[j] = last + share * (yaw - last);
     }
     before = k;
@@ -117,8 +118,11 @@ std::optional<double> steady_yaw(const FootprintStance& stance,
                                  const Yaws& yaws,
                                  const FootprintOptions& options) {
   const auto ahead = [&](std::size_t k) { return ahead_of(stance.place(k)); };
-  auto heading = mean(stance, [&](std::size_t k) { return stance.flat(k); }, ahead);
-  if (!heading) heading = mean(stance, [](std::size_t) { return true; }, ahead);
+  auto heading = mean(
+      stance, [&](std::size_t k) { return stance.flat(k); }, ahead);
+  if (!heading)
+    heading = mean(
+        stance, [](std::size_t) { return true; }, ahead);
   const double steady = std::atan2(heading->x, heading->z);
   for (std::size_t k = 0; k < stance.count(); ++k) {
     const double apart = std::remainder(yaws.rad[k] - steady, 2.0 * std::numbers::pi);
@@ -152,16 +156,14 @@ std::vector<double> following_yaws(const FootprintStance& stance,
   for (std::size_t k = 0; k < count; ++k) {
     double total = 0.0;
     for (int j = -half; j <= half; ++j) {
-      const auto at = std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(k) + j,
-                                                 0,
-                                                 static_cast<std::ptrdiff_t>(count) - 1);
+      const auto at = std::clamp<std::ptrdiff_t>(
+          static_cast<std::ptrdiff_t>(k) + j, 0, static_cast<std::ptrdiff_t>(count) - 1);
       total += (half + 1 - std::abs(j)) * sum[static_cast<std::size_t>(at)];
     }
     // A corner of a fast turn is left sharp.
     const double slack = kRounded * slack_at(stance, yaws, k, options);
-    out[k] = std::clamp(total / ((half + 1.0) * (half + 1.0)),
-                        yaws.rad[k] - slack,
-                        yaws.rad[k] + slack);
+    out[k] = std::clamp(
+        total / ((half + 1.0) * (half + 1.0)), yaws.rad[k] - slack, yaws.rad[k] + slack);
   }
   return out;
 }
@@ -175,9 +177,7 @@ glm::dquat heading(double yaw_rad) {
 double pivot_share(const FootprintStance& stance,
                    const std::vector<glm::dquat>& headings) {
   const auto flat = [&](std::size_t k) { return stance.flat(k); };
-  const auto ankle = [&](std::size_t k) {
-    return level(stance.place(k).ankle_in_world);
-  };
+  const auto ankle = [&](std::size_t k) { return level(stance.place(k).ankle_in_world); };
   const auto to_ball = [&](std::size_t k) {
     return headings[k] * level(stance.foot.ball_from_ankle_in_t_pose);
   };
@@ -217,7 +217,7 @@ std::vector<glm::dvec3> ways_of_ankle(const FootprintStance& stance,
 }  // namespace
 
 std::vector<Footprint> footprints(const StandingFootPath& path,
-                                  const FrameInterval& run,
+                                  const FrameRange& run,
                                   const FootMap& foot,
                                   FrameRate rate,
                                   const FootprintOptions& options) {
@@ -231,9 +231,8 @@ std::vector<Footprint> footprints(const StandingFootPath& path,
              : following_yaws(stance, yaws, rate.hz, options);
   std::vector<glm::dquat> headings;
   for (const double yaw_rad : turning) headings.push_back(heading(yaw_rad));
-  const std::vector<glm::dvec3> way = steady
-                                          ? std::vector<glm::dvec3>(count)
-                                          : ways_of_ankle(stance, headings);
+  const std::vector<glm::dvec3> way =
+      steady ? std::vector<glm::dvec3>(count) : ways_of_ankle(stance, headings);
   const auto flat_ball = [&](std::size_t k) {
     return headings[k] * foot.ball_from_ankle_in_t_pose;
   };
@@ -242,14 +241,17 @@ std::vector<Footprint> footprints(const StandingFootPath& path,
   };
   // The mean of its flat positions; for a stance on the ball or the heel alone, of that
   // joint's.
-  auto start = mean(stance, [&](std::size_t k) { return stance.flat(k); }, ankle);
+  auto start = mean(
+      stance, [&](std::size_t k) { return stance.flat(k); }, ankle);
   if (!start) {
     start = mean(
         stance,
         [&](std::size_t k) { return stance.on_ball(k); },
         [&](std::size_t k) { return stance.ball(k) - flat_ball(k) - way[k]; });
   }
-  if (!start) start = mean(stance, [](std::size_t) { return true; }, ankle);
+  if (!start)
+    start = mean(
+        stance, [](std::size_t) { return true; }, ankle);
   std::vector<Footprint> out(count);
   for (std::size_t k = 0; k < count; ++k) {
     glm::dvec3 place = *start + way[k];

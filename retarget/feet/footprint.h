@@ -8,6 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/base/frame_range.h"
 #include "core/base/time.h"
 #include "retarget/body/body_map.h"
 #include "retarget/contacts/detect_contacts.h"
@@ -54,7 +55,7 @@ struct StandingFootPath {
 /// yaw; it is interpolated. Cost: linear in frames.
 /// Precondition: `run` lies within the path; all three spans have the same length.
 [[nodiscard]] std::vector<Footprint> footprints(const StandingFootPath& path,
-                                                const FrameInterval& run,
+                                                const FrameRange& run,
                                                 const FootMap& foot,
                                                 FrameRate rate,
                                                 const FootprintOptions& options = {});

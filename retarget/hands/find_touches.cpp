@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/frame_range.h"
 #include "retarget/body/posed_frames.h"
 
 namespace marey::retarget {
@@ -93,11 +94,11 @@ std::vector<double> means(const std::vector<double>& values, int half) {
 
 // Returns the runs of frames that satisfy `keep` and contain a frame that satisfies
 // `start`; short gaps are closed.
-std::vector<FrameInterval> runs_of(const std::vector<char>& keeps,
-                                   const std::vector<char>& starts,
-                                   double max_gap,
-                                   double shortest) {
-  std::vector<FrameInterval> runs;
+std::vector<FrameRange> runs_of(const std::vector<char>& keeps,
+                                const std::vector<char>& starts,
+                                double max_gap,
+                                double shortest) {
+  std::vector<FrameRange> runs;
   std::vector<char> started;
   for (int t = 0; t < static_cast<int>(keeps.size()); ++t) {
     const auto i = static_cast<std::size_t>(t);
@@ -110,7 +111,7 @@ std::vector<FrameInterval> runs_of(const std::vector<char>& keeps,
       started.push_back(starts[i]);
     }
   }
-  std::vector<FrameInterval> out;
+  std::vector<FrameRange> out;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (started[i] && runs[i].last - runs[i].first + 1 >= shortest) {
       out.push_back(runs[i]);
@@ -148,7 +149,7 @@ Approach approach(const Search& search, int side, P part) {
 
 Touch touch_of(const Search& search,
                int side,
-               const FrameInterval& run,
+               const FrameRange& run,
                const std::vector<Approach>& parts) {
   const auto mean_over = [&](const std::vector<double>& values) {
     double sum = 0.0;
@@ -207,7 +208,7 @@ void find_on(const Search& search,
     starts[t] =
         gap_legs[t] < o.start_gap_legs && speed_legs[t] < o.start_speed_legs_per_s;
   }
-  for (const FrameInterval& run :
+  for (const FrameRange& run :
        runs_of(keeps, starts, o.max_gap_s * search.hz, o.min_touch_s * search.hz)) {
     out.push_back(touch_of(search, side, run, parts));
   }
@@ -258,8 +259,7 @@ void find_still(const Search& search,
     slow[t] = speed[t] < o.still_speed_legs_per_s * search.leg_m;
   }
   const double shortest = o.min_still_s * search.hz;
-  for (const FrameInterval& run :
-       runs_of(slow, slow, o.max_gap_s * search.hz, shortest)) {
+  for (const FrameRange& run : runs_of(slow, slow, o.max_gap_s * search.hz, shortest)) {
     for (int first = run.first; first <= run.last;) {
       const int last =
           stays_until(path, first, run.last, o.still_radius_legs * search.leg_m);

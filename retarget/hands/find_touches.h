@@ -6,6 +6,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/base/frame_range.h"
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
 #include "retarget/body/body_volume.h"
@@ -18,7 +19,7 @@ struct Touch {
   int side = 0;  ///< Side of the hand: 0 left, 1 right. A touch of both hands belongs to
                  ///< the left.
   VolumePart part = VolumePart::kHead;
-  FrameInterval frames;
+  FrameRange frames;
   /// Contact position on the axis of the hand's capsule: -1 at the wrist, 1 at the tips.
   double along_hand = 0.0;
   PlaceOnPart place;        ///< Mean position on the part.
@@ -30,7 +31,7 @@ struct Touch {
 /// something.
 struct StillHand {
   int side = 0;
-  FrameInterval frames;
+  FrameRange frames;
   glm::dvec3 p_in_world{0.0};  ///< Mean position of the middle of the hand. [m]
 };
 

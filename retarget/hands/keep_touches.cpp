@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/frame_range.h"
 #include "core/transform.h"
 #include "retarget/base/triweight.h"
 #include "retarget/constraints/activation.h"
@@ -129,10 +130,7 @@ struct Fade {
   std::vector<double> active;  // From first to last.
 };
 
-Fade fade_of(const FrameInterval& frames,
-             int frame_count,
-             FrameRate rate,
-             double fade_s) {
+Fade fade_of(const FrameRange& frames, int frame_count, FrameRate rate, double fade_s) {
   const Activation when = fading(frames, frame_count, 0, rate, fade_s);
   const int around = static_cast<int>(std::ceil(fade_s * rate.hz));
   Fade fade{std::max(frames.first - around, 0),
@@ -157,7 +155,7 @@ struct Hold {
   const Touch* touch = nullptr;
   const StillHand* still = nullptr;
   int side = 0;
-  FrameInterval frames;
+  FrameRange frames;
   Fade fade;
   // Per frame of the fade: freedom of the hand that other holds leave.
   std::vector<double> free;
@@ -301,7 +299,7 @@ std::vector<Hold> holds_of(const Scene& scene,
   std::vector<Hold> out;
   const auto add = [&](const Touch* touch, const StillHand* still) {
     const int side = touch ? touch->side : still->side;
-    const FrameInterval& frames = touch ? touch->frames : still->frames;
+    const FrameRange& frames = touch ? touch->frames : still->frames;
     out.push_back({touch,
                    still,
                    side,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/assert.h"
+#include "core/base/frame_range.h"
 
 namespace marey::retarget {
 namespace {
@@ -38,7 +39,7 @@ bool is_second(const Touches& touches, const Touch& touch) {
 
 }  // namespace
 
-Activation fading(const FrameInterval& frames,
+Activation fading(const FrameRange& frames,
                   int frame_count,
                   int first_frame,
                   FrameRate rate,
@@ -65,7 +66,7 @@ ConstraintSet constraints_of(const Touches& touches,
                        double along_hand,
                        Goal goal,
                        const std::string& words,
-                       const FrameInterval& frames) {
+                       const FrameRange& frames) {
     Constraint constraint;
     constraint.id = words + " " + std::to_string(++used[words]);
     constraint.point =

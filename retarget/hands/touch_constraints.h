@@ -4,9 +4,10 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/base/frame_range.h"
+#include "core/base/time.h"
 #include "core/constraint.h"
 #include "core/skeleton.h"
-#include "core/base/time.h"
 #include "retarget/body/body_map.h"
 #include "retarget/body/body_volume.h"
 #include "retarget/hands/find_touches.h"
@@ -54,7 +55,7 @@ struct TouchConstraintsOptions {
 
 /// Returns the activation of a touch: full in its frames, faded before and after. A touch
 /// at the start of the motion does not fade in, and one at its end does not fade out.
-[[nodiscard]] Activation fading(const FrameInterval& frames,
+[[nodiscard]] Activation fading(const FrameRange& frames,
                                 int frame_count,
                                 int first_frame,
                                 FrameRate rate,

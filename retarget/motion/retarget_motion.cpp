@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/frame_range.h"
 #include "core/pose.h"
 #include "retarget/body/match_carriage.h"
 #include "retarget/body/place_masses.h"
@@ -39,9 +40,9 @@ struct Slide {
 };
 
 void add_slide(const std::vector<glm::dvec3>& path,
-               const std::vector<FrameInterval>& contacts,
+               const std::vector<FrameRange>& contacts,
                Slide& slide) {
-  for (const FrameInterval& run : contacts) {
+  for (const FrameRange& run : contacts) {
     for (int t = run.first + 1; t <= run.last; ++t) {
       const glm::dvec3 step =
           path[static_cast<std::size_t>(t)] - path[static_cast<std::size_t>(t - 1)];
@@ -137,7 +138,7 @@ FootFigures measure_feet(const Motion& motion,
   Slide slide;
   for (std::size_t side = 0; side < 2; ++side) {
     const auto measure =
-        [&](JointIndex joint, const std::vector<FrameInterval>& runs, double height_m) {
+        [&](JointIndex joint, const std::vector<FrameRange>& runs, double height_m) {
           const std::vector<glm::dvec3> path = path_of(motion, joint);
           add_slide(path, runs, slide);
           for (const glm::dvec3& p : path) {

@@ -11,10 +11,10 @@
 #include "core/base/extension.h"
 #include "core/human/average_proportions.h"
 #include "core/pose.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/body/mannequin.h"
 #include "recordings/gltf/gltf.h"
 #include "recordings/motion/bvh.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/support/program/paths.h"
 
 namespace marey::testing {

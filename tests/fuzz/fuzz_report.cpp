@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/assert.h"
-#include "recordings/text/nesting.h"
+#include "recordings/base/nesting.h"
 
 namespace {
 

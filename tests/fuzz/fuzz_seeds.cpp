@@ -11,6 +11,7 @@
 #include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "core/skeleton.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/body/constraints_file.h"
 #include "recordings/gltf/gltf.h"
 #include "recordings/gltf/vrma.h"
@@ -18,7 +19,6 @@
 #include "recordings/markers/marker_file.h"
 #include "recordings/markers/trc.h"
 #include "recordings/motion/bvh.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/fuzz/fuzz_seeds_osc.h"
 #include "tests/fuzz/fuzz_seeds_results.h"
 

@@ -6,11 +6,11 @@
 #include <system_error>
 #include <vector>
 
+#include "recordings/base/atomic_file.h"
 #include "recordings/gltf/vrma.h"
 #include "recordings/motion/npz.h"
 #include "recordings/takes/live_take.h"
 #include "recordings/takes/take_file.h"
-#include "recordings/text/atomic_file.h"
 
 namespace marey::fuzz {
 namespace {

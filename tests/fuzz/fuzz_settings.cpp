@@ -13,14 +13,14 @@
 #include "core/base/assert.h"
 #include "core/human/average_proportions.h"
 #include "core/skeleton.h"
+#include "recordings/base/nesting.h"
+#include "recordings/base/toml_reader.h"
 #include "recordings/body/bone_map_file.h"
 #include "recordings/body/character_file.h"
 #include "recordings/body/floor_file.h"
 #include "recordings/markers/marker_map.h"
 #include "recordings/session/plan_file.h"
 #include "recordings/session/subject_file.h"
-#include "recordings/text/nesting.h"
-#include "recordings/text/toml_reader.h"
 
 namespace {
 

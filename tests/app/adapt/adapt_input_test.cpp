@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "recordings/base/atomic_file.h"
 #include "recordings/motion/bvh.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/app/adapt/adapt_scene.h"
 #include "tests/support/bodies/random_bodies.h"
 

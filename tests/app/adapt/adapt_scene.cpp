@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/motion/bvh.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/support/program/paths.h"
 
 namespace marey::testing {

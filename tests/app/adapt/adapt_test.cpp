@@ -13,8 +13,8 @@
 
 #include "core/human/average_proportions.h"
 #include "core/pose.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/gltf/gltf.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/app/adapt/adapt_scene.h"
 
 namespace marey::testing {

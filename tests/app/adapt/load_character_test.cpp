@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "core/human/average_proportions.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/body/character_file.h"
 #include "recordings/session/subject_file.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/program/scratch_folder.h"
 

@@ -11,8 +11,9 @@
 #include <sqlite3.h>
 
 #include "app/check/check_frame_times.h"
+#include "core/base/frame_range.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/takes/take_file.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/support/files/run_sql.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/program/scratch_folder.h"
@@ -113,8 +114,8 @@ TEST(MatchTimes, CutsATakeToItsRangeOfInstants) {
 }
 
 TEST(MatchTimes, DeclinesARangeThatATakeDoesNotReach) {
-  for (const recordings::FrameRange range :
-       {recordings::FrameRange{5000, 5100}, {10, 90}, {90, 90}, {0, 2147483647}}) {
+  for (const FrameRange range :
+       {FrameRange{5000, 5100}, {10, 90}, {90, 90}, {0, 2147483647}}) {
     const ScratchFolder folder;
     SmallTake take(folder.path());
     take.trial.frames = range;

@@ -15,11 +15,11 @@
 
 #include "core/human/average_proportions.h"
 #include "core/pose.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/gltf/gltf.h"
 #include "recordings/gltf/vrma.h"
 #include "recordings/motion/bvh.h"
 #include "recordings/motion/mot.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/program/run_program.h"
 #include "tests/support/program/scratch_folder.h"

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "recordings/base/atomic_file.h"
 #include "recordings/session/session.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/program/run_program.h"
 #include "tests/support/program/scratch_folder.h"

@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "recordings/base/atomic_file.h"
 #include "recordings/markers/marker_file.h"
 #include "recordings/session/subject_file.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/app/labelled_session.h"
 #include "tests/support/bodies/worn_markers.h"
 

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "recordings/text/atomic_file.h"
+#include "recordings/base/atomic_file.h"
 #include "tests/app/labelled_session.h"
 #include "tests/support/bodies/labelled_wearer.h"
 #include "tests/support/bodies/worn_markers.h"

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "recordings/base/atomic_file.h"
 #include "recordings/markers/marker_file.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/app/browser.h"
 #include "tests/app/labelled_session.h"
 #include "tests/support/bodies/synthetic_person.h"

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "app/check/check_target_seen.h"
-#include "recordings/text/atomic_file.h"
+#include "recordings/base/atomic_file.h"
 #include "tests/support/program/scratch_folder.h"
 
 namespace marey::app {

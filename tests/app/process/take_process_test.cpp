@@ -17,7 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/record/record_take.h"
-#include "recordings/text/atomic_file.h"
+#include "recordings/base/atomic_file.h"
 #include "tests/app/process/recorded_walk.h"
 #include "tests/app/spoiled_session.h"
 #include "tests/support/files/video_packets.h"

@@ -27,7 +27,7 @@ if(NOT MAREY_SANITIZE AND MAREY_STATIC_AVFORMAT AND MAREY_STATIC_AVCODEC AND
     ${rooms}/core/base/input_file.cpp
     ${rooms}/recordings/takes/jpeg_encoder.cpp
     ${rooms}/recordings/takes/mjpg_video.cpp
-    ${rooms}/recordings/text/sqlite.cpp
+    ${rooms}/recordings/base/sqlite.cpp
     ${rooms}/recordings/takes/take_file_read.cpp
     ${rooms}/recordings/takes/take_file_write.cpp
     ${rooms}/recordings/takes/video_times.cpp)

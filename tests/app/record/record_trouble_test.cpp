@@ -16,9 +16,9 @@
 #include <unistd.h>
 
 #include "app/record/record_take.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/takes/take_file.h"
 #include "recordings/takes/video_times.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/app/synthetic_feed.h"
 #include "tests/support/program/scratch_folder.h"
 

@@ -17,9 +17,9 @@
 
 #include "core/human/average_proportions.h"
 #include "core/pose.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/body/constraints_file.h"
 #include "recordings/motion/bvh.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/app/retarget_scene.h"
 #include "tests/support/program/paths.h"
 

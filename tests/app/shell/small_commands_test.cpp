@@ -267,7 +267,7 @@ TEST_F(Exit, IsThreeAtOnceForResultsWhereAFileIs) {
   }
 }
 
-// tests/recordings/text/atomic_file_test.cpp tests the removal of partly written files.
+// tests/recordings/base/atomic_file_test.cpp tests the removal of partly written files.
 // This test cannot detect the moment at which a file is being written.
 TEST_F(Exit, Is130WhenInterrupted) {
   const fs::path out = in_folder("out");

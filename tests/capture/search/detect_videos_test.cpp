@@ -11,6 +11,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "core/base/frame_range.h"
 #include "tests/capture/scratch_video.h"
 #include "tests/capture/tag_artist.h"
 #include "tests/support/program/scratch_folder.h"

@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "capture/search/survey_boards.h"
+#include "core/base/frame_range.h"
 #include "tests/capture/tag_artist.h"
 #include "tests/support/program/scratch_folder.h"
 

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "capture/search/detect_videos.h"
+#include "core/base/frame_range.h"
 #include "tests/support/program/paths.h"
 
 namespace marey::capture {

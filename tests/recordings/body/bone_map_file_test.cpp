@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "core/human/average_proportions.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/body/skeleton_picture.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/support/program/scratch_folder.h"
 
 namespace marey::recordings {

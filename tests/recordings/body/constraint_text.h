@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "recordings/base/atomic_file.h"
 #include "recordings/body/constraints_file.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/support/files/text_file.h"
 #include "tests/support/program/paths.h"
 

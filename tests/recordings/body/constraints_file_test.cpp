@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/text/atomic_file.h"
+#include "recordings/base/atomic_file.h"
 #include "tests/recordings/body/constraint_text.h"
 #include "tests/support/program/scratch_folder.h"
 

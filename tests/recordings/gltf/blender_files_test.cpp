@@ -10,10 +10,10 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/csv_line.h"
 #include "recordings/gltf/gltf.h"
 #include "recordings/motion/bvh.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/csv_line.h"
 #include "tests/support/program/paths.h"
 
 namespace marey::recordings {

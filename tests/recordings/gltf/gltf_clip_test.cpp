@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/human/average_proportions.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/body/mannequin.h"
 #include "recordings/gltf/gltf.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/recordings/wild_motion.h"
 #include "tests/support/program/scratch_folder.h"
 

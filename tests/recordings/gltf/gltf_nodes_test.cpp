@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/body/mannequin.h"
 #include "recordings/gltf/gltf.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/support/program/scratch_folder.h"
 
 namespace marey::recordings {

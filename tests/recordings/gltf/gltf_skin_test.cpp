@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "recordings/base/atomic_file.h"
 #include "recordings/gltf/gltf.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/support/program/scratch_folder.h"
 
 namespace marey::recordings {

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "recordings/base/atomic_file.h"
 #include "recordings/body/mannequin.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/recordings/wild_motion.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/program/scratch_folder.h"

@@ -13,8 +13,8 @@
 
 #include "core/human/average_proportions.h"
 #include "core/pose.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/gltf/gltf.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/recordings/wild_motion.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/program/scratch_folder.h"

@@ -8,11 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include "recordings/base/atomic_file.h"
 #include "recordings/markers/c3d.h"
 #include "recordings/markers/c3d_markers.h"
 #include "recordings/markers/c3d_words.h"
 #include "recordings/markers/marker_file.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/recordings/markers/c3d_example.h"
 #include "tests/support/program/scratch_folder.h"
 

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "recordings/base/atomic_file.h"
 #include "recordings/markers/c3d_words.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/recordings/markers/c3d_example.h"
 #include "tests/support/program/count_allocations.h"
 #include "tests/support/program/scratch_folder.h"

@@ -9,9 +9,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "recordings/base/atomic_file.h"
 #include "recordings/markers/c3d.h"
 #include "recordings/markers/c3d_markers.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/recordings/markers/c3d_example.h"
 #include "tests/recordings/markers/has_note.h"
 #include "tests/support/program/scratch_folder.h"

@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/motion/bvh.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/support/files/acclaim.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/program/scratch_folder.h"

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/human/average_proportions.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/zip_archive.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/zip_archive.h"
 #include "tests/recordings/wild_motion.h"
 #include "tests/support/program/run_program.h"
 #include "tests/support/program/scratch_folder.h"

@@ -15,6 +15,9 @@
 #include <unistd.h>
 
 #include "core/human/average_proportions.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/nesting.h"
+#include "recordings/base/sqlite.h"
 #include "recordings/body/bone_map_file.h"
 #include "recordings/body/character_file.h"
 #include "recordings/body/constraints_file.h"
@@ -34,9 +37,6 @@
 #include "recordings/session/subject_file.h"
 #include "recordings/takes/live_take.h"
 #include "recordings/takes/take_file.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/nesting.h"
-#include "recordings/text/sqlite.h"
 #include "tests/support/program/scratch_folder.h"
 
 namespace marey::recordings {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/text/atomic_file.h"
+#include "recordings/base/atomic_file.h"
 #include "tests/support/files/text_file.h"
 #include "tests/support/program/scratch_folder.h"
 

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "recordings/base/atomic_file.h"
 #include "recordings/session/calibration_file.h"
-#include "recordings/text/atomic_file.h"
 #include "tests/support/files/text_file.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/program/scratch_folder.h"

@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/text/sqlite.h"
-#include "recordings/text/view_bytes.h"
+#include "recordings/base/sqlite.h"
+#include "recordings/takes/view_bytes.h"
 #include "tests/support/program/scratch_folder.h"
 
 namespace marey::recordings {

@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "recordings/text/atomic_file.h"
+#include "recordings/base/atomic_file.h"
 #include "tests/support/files/run_sql.h"
 #include "tests/support/program/scratch_folder.h"
 

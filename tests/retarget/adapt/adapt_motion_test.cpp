@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/base/frame_range.h"
 #include "core/pose.h"
 #include "retarget/character/make_character.h"
 #include "tests/retarget/mapped.h"
@@ -124,7 +125,7 @@ TEST(AdaptMotion, SupportsAreActiveWhileTheyBear) {
   ASSERT_TRUE(adapted) << adapted.error().message();
   for (std::size_t i = 0; i < scene.supports.size(); ++i) {
     int bearing = 0;
-    for (const FrameInterval& run : scene.supports[i].bears) {
+    for (const FrameRange& run : scene.supports[i].bears) {
       bearing += run.last - run.first + 1;
     }
     EXPECT_EQ(adapted->supports[i].active_frames, bearing) << adapted->supports[i].id;

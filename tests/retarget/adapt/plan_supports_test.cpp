@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/base/frame_range.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/simulation/synthetic_walk.h"
 
@@ -37,7 +38,7 @@ const SupportTrack* find(const std::vector<SupportTrack>& tracks, const std::str
 }
 
 bool bears(const SupportTrack& track, int frame) {
-  return std::any_of(track.bears.begin(), track.bears.end(), [=](FrameInterval run) {
+  return std::any_of(track.bears.begin(), track.bears.end(), [=](FrameRange run) {
     return run.first <= frame && frame <= run.last;
   });
 }
@@ -75,7 +76,7 @@ TEST(PlanSupports, PointsAreStillWhileTheyBearAndSmoothElsewhere) {
   const SupportScene scene;
   for (const SupportTrack& track : scene.plan()) {
     ASSERT_EQ(track.p_in_world.size(), static_cast<std::size_t>(kSupportFrames));
-    for (const FrameInterval& run : track.bears) {
+    for (const FrameRange& run : track.bears) {
       for (int t = run.first; t <= run.last; ++t) {
         const glm::dvec3 away = track.p_in_world[static_cast<std::size_t>(t)] -
                                 track.p_in_world[static_cast<std::size_t>(run.first)];

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/base/frame_range.h"
 #include "core/floor.h"
 #include "retarget/adapt/adapt_motion.h"
 #include "retarget/character/make_character.h"
@@ -107,7 +108,7 @@ struct HeelFirst {
     for (std::size_t side = 0; side < 2; ++side) {
       FootContacts& foot = contacts.feet[side];
       const JointIndex ankle = map.leg(static_cast<int>(side)).end;
-      for (FrameInterval& ball : foot.ball) {
+      for (FrameRange& ball : foot.ball) {
         if (ball.first == 0) continue;
         for (int k = 0; k < kRoll; ++k) {
           const double up_rad = 0.35 * (kRoll - k) / kRoll;

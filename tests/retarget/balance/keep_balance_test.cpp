@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/base/frame_range.h"
 #include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "retarget/body/place_masses.h"
@@ -264,7 +265,7 @@ TEST_P(HeavyTrunk, MovesNoFootThatStands) {
     const ContactPaths before = contact_paths(without.motion, map);
     const ContactPaths after = contact_paths(with.motion, map);
     for (std::size_t side = 0; side < 2; ++side) {
-      for (const FrameInterval& run : with.report.contacts.feet[side].stance) {
+      for (const FrameRange& run : with.report.contacts.feet[side].stance) {
         for (int t = run.first; t <= run.last; ++t) {
           const auto i = static_cast<std::size_t>(t);
           EXPECT_LT(glm::length(before[side][i] - after[side][i]), 1e-9);

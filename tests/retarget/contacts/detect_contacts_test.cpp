@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/frame_range.h"
 #include "core/pose.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/simulation/synthetic_walk.h"
@@ -15,8 +16,8 @@
 namespace marey::retarget {
 namespace {
 
-std::vector<FrameInterval> runs_of(const std::vector<char>& on) {
-  std::vector<FrameInterval> out;
+std::vector<FrameRange> runs_of(const std::vector<char>& on) {
+  std::vector<FrameRange> out;
   for (int t = 0; t < static_cast<int>(on.size()); ++t) {
     if (!on[static_cast<std::size_t>(t)]) continue;
     if (out.empty() || out.back().last != t - 1) out.push_back({t, t});
@@ -26,8 +27,8 @@ std::vector<FrameInterval> runs_of(const std::vector<char>& on) {
 }
 
 // Same contacts, each end within `frames`. Ends at the motion's own ends count too.
-void expect_near(const std::vector<FrameInterval>& found,
-                 const std::vector<FrameInterval>& truth,
+void expect_near(const std::vector<FrameRange>& found,
+                 const std::vector<FrameRange>& truth,
                  int frames) {
   ASSERT_EQ(found.size(), truth.size());
   for (std::size_t i = 0; i < found.size(); ++i) {

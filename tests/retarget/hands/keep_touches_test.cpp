@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/base/frame_range.h"
 #include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "retarget/adapt/adapt_motion.h"
@@ -125,7 +126,7 @@ TEST(KeepTouches, KeepsAHandThatLeansWhereItLeans) {
     const Skeleton avatar = make_humanoid(average_proportions(1.65));
     const auto out = refined(source, avatar, still);
     ASSERT_FALSE(out.report.hands.touches.still.empty());
-    const FrameInterval frames = out.report.hands.touches.still[0].frames;
+    const FrameRange frames = out.report.hands.touches.still[0].frames;
     const double scale = still == StillPlace::kKept ? 1.0 : 1.65 / 1.75;
     for (int t = frames.first; t <= frames.last; t += 5) {
       const auto i = static_cast<std::size_t>(t);

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/base/frame_range.h"
 #include "core/pose.h"
 #include "tests/retarget/joint_path.h"
 #include "tests/support/bodies/random_bodies.h"
@@ -99,7 +100,7 @@ TEST_P(EveryAvatar, StandsOnItsOwnSoles) {
   const auto out = retargeted(walk.motion, avatar);
   const BodyMap map = *map_body(avatar);
   const auto ankle = joint_path(out.motion, B::kLeftFoot);
-  for (const FrameInterval& run : out.report.contacts.feet[0].heel) {
+  for (const FrameRange& run : out.report.contacts.feet[0].heel) {
     for (int t = run.first; t <= run.last; ++t) {
       EXPECT_NEAR(ankle[static_cast<std::size_t>(t)].y, map.feet[0].ankle_height_m, 1e-9);
     }

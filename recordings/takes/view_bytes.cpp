@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/text/view_bytes.h"
+#include "recordings/takes/view_bytes.h"
 
 #include <bit>
 #include <cmath>

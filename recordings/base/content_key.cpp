@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/text/content_key.h"
+#include "recordings/base/content_key.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/text/atomic_file.h"
+#include "recordings/base/atomic_file.h"
 
 #include <array>
 #include <atomic>

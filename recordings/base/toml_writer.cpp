@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/text/toml_writer.h"
+#include "recordings/base/toml_writer.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/base/assert.h"
-#include "recordings/text/number_text.h"
+#include "recordings/base/number_text.h"
 
 namespace marey::recordings {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/text/opencv_xml.h"
+#include "recordings/base/opencv_xml.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 #include <pugixml.hpp>
 
-#include "recordings/text/yaml_reader.h"
+#include "recordings/base/yaml_reader.h"
 
 namespace marey::recordings {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/text/sqlite.h"
+#include "recordings/base/sqlite.h"
 
 #include <algorithm>
 #include <cstdlib>

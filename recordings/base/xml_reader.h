@@ -12,7 +12,7 @@
 #include <pugixml.hpp>
 
 #include "core/base/result.h"
-#include "recordings/text/toml_reader.h"
+#include "recordings/base/toml_reader.h"
 
 namespace marey::recordings {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/convert/print_commands.h"
+#include "app/print/print_commands.h"
 
 #include <memory>
 #include <utility>

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "recordings/text/text_reader.h"
+#include "recordings/base/text_reader.h"
 
 namespace marey::recordings {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/text/text_reader.h"
+#include "recordings/base/text_reader.h"
 
 #include <charconv>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/text/mesh.h"
+#include "recordings/body/mesh.h"
 
 #include "core/base/assert.h"
 

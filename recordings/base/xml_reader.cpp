@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/text/xml_reader.h"
+#include "recordings/base/xml_reader.h"
 
 #include <algorithm>
 #include <array>
@@ -10,8 +10,8 @@
 
 #include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
-#include "recordings/text/number_text.h"
-#include "recordings/text/text_reader.h"
+#include "recordings/base/number_text.h"
+#include "recordings/base/text_reader.h"
 
 namespace marey::recordings {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/text/nesting.h"
+#include "recordings/base/nesting.h"
 
 #include <algorithm>
 #include <vector>

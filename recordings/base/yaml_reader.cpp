@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/text/yaml_reader.h"
+#include "recordings/base/yaml_reader.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/text/other_kind.h"
+#include "recordings/base/other_kind.h"
 
 #include <array>
 #include <cstddef>

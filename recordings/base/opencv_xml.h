@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/base/result.h"
-#include "recordings/text/toml_reader.h"
+#include "recordings/base/toml_reader.h"
 
 namespace marey::recordings {
 

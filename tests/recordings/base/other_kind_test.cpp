@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/text/other_kind.h"
+#include "recordings/base/other_kind.h"
 
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "recordings/text/atomic_file.h"
-#include "recordings/text/toml_reader.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/toml_reader.h"
 #include "tests/support/program/paths.h"
 
 namespace marey::recordings {

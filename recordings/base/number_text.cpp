@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/text/number_text.h"
+#include "recordings/base/number_text.h"
 
 #include <array>
 #include <charconv>

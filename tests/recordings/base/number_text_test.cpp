@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/text/number_text.h"
+#include "recordings/base/number_text.h"
 
 #include <cmath>
 #include <limits>
@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/text/text_reader.h"
+#include "recordings/base/text_reader.h"
 
 namespace marey::recordings {
 namespace {

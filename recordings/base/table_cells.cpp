@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/text/trc_cells.h"
+#include "recordings/base/table_cells.h"
 
 #include <algorithm>
 

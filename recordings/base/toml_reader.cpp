@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/text/toml_reader.h"
+#include "recordings/base/toml_reader.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,9 @@
 
 #include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
-#include "recordings/text/nesting.h"
-#include "recordings/text/number_text.h"
-#include "recordings/text/other_kind.h"
+#include "recordings/base/nesting.h"
+#include "recordings/base/number_text.h"
+#include "recordings/base/other_kind.h"
 
 namespace marey::recordings {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/text/zip_archive.h"
+#include "recordings/base/zip_archive.h"
 
 #include <zip.h>
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/text/content_key.h"
+#include "recordings/base/content_key.h"
 
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "recordings/text/atomic_file.h"
+#include "recordings/base/atomic_file.h"
 #include "tests/support/program/scratch_folder.h"
 
 namespace marey::recordings {

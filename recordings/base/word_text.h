@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "core/base/in_quotes.h"
-#include "recordings/text/number_text.h"
-#include "recordings/text/text_reader.h"
+#include "recordings/base/number_text.h"
+#include "recordings/base/text_reader.h"
 
 namespace marey::recordings {
 
