@@ -27,7 +27,8 @@ Result<LiveOutputs> open_outputs(const LiveArguments& arguments,
                                  Console& console) {
   if (live.settings.streams.empty()) return LiveOutputs::open({}, {}, live.vrchat);
   std::optional<int>& port = live.settings.streams.front().listen_port;
-  if (!arguments.vmc_deaf) port = arguments.vmc_listen.value_or(live::kPerformerPort);
+  if (!arguments.vmc_send_only)
+    port = arguments.vmc_listen.value_or(live::kPerformerPort);
   auto outputs = LiveOutputs::open(live.settings.streams, live.targets, live.vrchat);
   if (outputs || !port || arguments.vmc_listen) return outputs;
   const Error trouble = outputs.error();
@@ -196,7 +197,8 @@ void add_live_command(CLI::App& app,
       ->check(between(0, 65507));
   command->add_option("--vmc-listen", live.vmc_listen, "Port to receive commands on")
       ->check(between(1, 65535));
-  command->add_flag("--vmc-deaf", live.vmc_deaf, "Receive no commands");
+  command->add_flag("--vmc-send-only", live.vmc_send_only, "Receive no commands");
+  command->add_flag("--vmc-deaf", live.vmc_send_only)->group("");  // The former name.
   command
       ->add_option("--vrchat",
                    live.vrchat,
