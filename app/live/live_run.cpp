@@ -229,14 +229,14 @@ class Loop {
     counting_.add_cameras(group);
     report_state(state_, result.track.state, console_);
     state_ = result.track.state;
-    detect_swapped_cameras(result);
+    detect_exchanged_cameras(result);
     if (watcher_) show(group, result);
     // This may replace the chain.
     if (takes_) record(requests, result);
     if (guide_) guide(instant_);
   }
 
-  void detect_swapped_cameras(const LiveResult& result) {
+  void detect_exchanged_cameras(const LiveResult& result) {
     if (!chain_ || !unmatched_tags_) return;
     unmatched_tags_->add(instant_, result.track);
     bool& reported = counting_.figures().has_unmatched_tags;

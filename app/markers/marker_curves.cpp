@@ -38,7 +38,7 @@ struct Repaired {
 };
 
 bool is_filled(SampleFate fate) {
-  return fate != SampleFate::kMeasured && fate != SampleFate::kSwapped &&
+  return fate != SampleFate::kMeasured && fate != SampleFate::kExchanged &&
          fate != SampleFate::kLeftEmpty;
 }
 

@@ -40,16 +40,16 @@ SampleFate fate_of(RepairMethod method) {
 void mark_findings(const Repair& repair, MarkerHistory& history) {
   const std::size_t markers = history.after.markers();
   for (const FaultySamples& finding : repair.checked.findings) {
-    const bool is_swap = finding.fault == TrackFault::kSwapped;
+    const bool is_exchange = finding.fault == TrackFault::kExchanged;
     for (std::size_t f = finding.first; f < finding.first + finding.frames; ++f) {
       const std::size_t at = f * markers + finding.marker;
-      if (!is_swap) {
+      if (!is_exchange) {
         history.is_removed[at] = true;
         continue;
       }
-      history.fates[at] = SampleFate::kSwapped;
+      history.fates[at] = SampleFate::kExchanged;
       if (finding.other) {
-        history.fates[f * markers + *finding.other] = SampleFate::kSwapped;
+        history.fates[f * markers + *finding.other] = SampleFate::kExchanged;
       }
     }
   }
@@ -92,7 +92,7 @@ Json run_json(const Repair& repair,
               const Run& run) {
   const SampleFate fate = history.fate(run.first, marker);
   Json out{run.first, run.end - run.first, static_cast<int>(fate)};
-  if (fate == SampleFate::kSwapped || fate == SampleFate::kLeftEmpty) return out;
+  if (fate == SampleFate::kExchanged || fate == SampleFate::kLeftEmpty) return out;
   std::vector<double> sigmas_m;
   for (std::size_t f = run.first; f < run.end; ++f) {
     const auto& sample = history.after.at(f, marker);
@@ -147,8 +147,8 @@ std::string_view name(SampleFate fate) {
   switch (fate) {
     case SampleFate::kMeasured:
       return "measured";
-    case SampleFate::kSwapped:
-      return name(TrackFault::kSwapped);
+    case SampleFate::kExchanged:
+      return name(TrackFault::kExchanged);
     case SampleFate::kCluster:
       return name(RepairMethod::kCluster);
     case SampleFate::kStructure:

@@ -17,7 +17,7 @@ namespace marey::app {
 /// Origin of a written sample.
 enum class SampleFate : std::uint8_t {
   kMeasured,   ///< As it was read.
-  kSwapped,    ///< Measured under another marker's label, and corrected.
+  kExchanged,  ///< Measured under another marker's label, and corrected.
   kCluster,    ///< Filled: reconstruct::RepairMethod::kCluster.
   kStructure,  ///< Filled: reconstruct::RepairMethod::kStructure.
   kSpline,     ///< Filled: reconstruct::RepairMethod::kSpline.

@@ -13,7 +13,7 @@
 namespace marey::app {
 namespace {
 
-using reconstruct::SwappedSides;
+using reconstruct::SideExchange;
 using reconstruct::TrialGeometry;
 using recordings::Evidence;
 using recordings::FileAxis;
@@ -119,13 +119,13 @@ std::string unit_advice(std::span<const MarkerTrial> trials, double stature_m) {
          *unit + "; ";
 }
 
-std::string_view part_words(SwappedSides sides) {
+std::string_view part_words(SideExchange sides) {
   switch (sides) {
-    case SwappedSides::kTrunk:
+    case SideExchange::kTrunk:
       return "the trunk";
-    case SwappedSides::kLegs:
+    case SideExchange::kLegs:
       return "the legs";
-    case SwappedSides::kArms:
+    case SideExchange::kArms:
       return "the arms";
     default:
       return "all labels";
@@ -134,20 +134,20 @@ std::string_view part_words(SwappedSides sides) {
 
 Finding sides_finding(std::span<const MarkerTrial> trials,
                       std::size_t trial,
-                      SwappedSides sides,
+                      SideExchange sides,
                       bool in_all) {
   const std::string part(part_words(sides));
   const bool is_alone = trials.size() == 1;
   std::string cause = "left and right seem exchanged on " + part;
   if (!is_alone) cause += in_all ? " in all trials" : " in this trial";
-  cause += sides == SwappedSides::kAll
+  cause += sides == SideExchange::kAll
                ? ": with these labels, the markers are a mirror image of a body"
                : ": with these labels, left is on the trunk's right";
   std::string next = "exchange left and right in the labels of " +
-                     (sides == SwappedSides::kAll ? "this file" : part);
+                     (sides == SideExchange::kAll ? "this file" : part);
   next += is_alone || in_all ? ", in the recording or with --markers MAP.toml"
                              : " in this file, not in the others";
-  if (sides == SwappedSides::kAll) {
+  if (sides == SideExchange::kAll) {
     next = is_alone || in_all
                ? "correct left and right, in the recording or with --markers MAP.toml, "
                  "or check whether the file's axes are left-handed"
@@ -229,14 +229,14 @@ std::vector<Finding> assess_sides_and_axes(std::span<const MarkerTrial> trials,
   bool in_all = trials.size() > 1;
   for (const TrialGeometry& one : geometry) {
     in_all =
-        in_all && one.sides != SwappedSides::kNone && one.sides == geometry.front().sides;
+        in_all && one.sides != SideExchange::kNone && one.sides == geometry.front().sides;
   }
   if (in_all) found.push_back(sides_finding(trials, 0, geometry.front().sides, true));
   for (std::size_t t = 0; t < trials.size(); ++t) {
     if (is_never_upright(geometry[t]) && is_axis_wrong(trials[t], geometry[t])) {
       found.push_back(axis_finding(trials[t], geometry[t]));
     }
-    if (!in_all && geometry[t].sides != SwappedSides::kNone) {
+    if (!in_all && geometry[t].sides != SideExchange::kNone) {
       found.push_back(sides_finding(trials, t, geometry[t].sides, false));
     }
   }

@@ -54,7 +54,7 @@ std::vector<BodyView> views_of(std::span<const Camera> cameras,
                                const PlannedBody& body,
                                const BodyPlace& place,
                                const PlanOptions& options) {
-  const std::vector<Capsule> flesh = flesh_of(body, place);
+  const std::vector<Capsule> soft_tissue = soft_tissue_of(body, place);
   std::vector<BodyView> views;
   for (std::size_t t = 0; t < body.tags.size(); ++t) {
     const PlacedTag& tag = body.tags[t];
@@ -67,7 +67,7 @@ std::vector<BodyView> views_of(std::span<const Camera> cameras,
       const glm::dvec3 eye = centre_in_world(cameras[c]);
       const bool hidden =
           std::any_of(corners.begin(), corners.end(), [&](const glm::dvec3& corner) {
-            return is_hidden(corner, eye, flesh);
+            return is_hidden(corner, eye, soft_tissue);
           });
       if (!hidden) views.push_back({t, c, *side_px});
     }

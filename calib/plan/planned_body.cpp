@@ -29,7 +29,7 @@ struct Spot {
   double skin;     ///< From the bone to the skin there, divided by the stature.
 };
 
-/// In order of use. Thicknesses are those of flesh_of(), or more at muscles.
+/// In order of use. Thicknesses are those of soft_tissue_of(), or more at muscles.
 constexpr std::array<Spot, 28> kSpots{{
     {B::kHips, 0.0, {0.0, 0.0, 1.0}, 0.068},
     {B::kHips, 0.0, {0.0, 0.0, -1.0}, 0.074},

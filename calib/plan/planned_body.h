@@ -60,12 +60,12 @@ struct Capsule {
 };
 
 /// Returns the whole body, with the thicknesses of a lean adult.
-[[nodiscard]] std::vector<Capsule> flesh_of(const PlannedBody& body,
-                                            const BodyPlace& place);
+[[nodiscard]] std::vector<Capsule> soft_tissue_of(const PlannedBody& body,
+                                                  const BodyPlace& place);
 
 /// Returns true if the straight line between two points passes through a capsule. Linear.
 [[nodiscard]] bool is_hidden(const glm::dvec3& p_in_world,
                              const glm::dvec3& eye_in_world,
-                             std::span<const Capsule> flesh);
+                             std::span<const Capsule> soft_tissue);
 
 }  // namespace marey::calib

@@ -77,27 +77,27 @@ Status check_floor(std::span<const Camera> cameras,
   const auto source = [&](std::size_t i) {
     return floor[index(floor_views[i]->camera)].source;
   };
-  Fit swapped = as_given;
+  Fit exchanged = as_given;
   std::pair<std::size_t, std::size_t> pair;
   for (std::size_t a = 0; a < views.size(); ++a) {
     for (std::size_t b = a + 1; b < views.size(); ++b) {
       std::swap(views[a].view, views[b].view);
       const Fit fit = best_fit(views);
       std::swap(views[a].view, views[b].view);
-      if (fit.worst_px >= swapped.worst_px) continue;
-      swapped = fit;
+      if (fit.worst_px >= exchanged.worst_px) continue;
+      exchanged = fit;
       pair = {a, b};
     }
   }
   std::array<char, 160> text{};
-  if (swapped.worst_px < kMaxFloorError_px) {
+  if (exchanged.worst_px < kMaxFloorError_px) {
     std::snprintf(
         text.data(),
         text.size(),
         "the two cameras' files look swapped: the board on the floor is %.0f px off as "
         "given, %.1f px if they are exchanged",
         as_given.worst_px,
-        swapped.worst_px);
+        exchanged.worst_px);
     return bad_input(source(pair.first) + " and " + source(pair.second),
                      text.data(),
                      "exchange them under the floor trial's videos in session.toml (or "

@@ -21,13 +21,14 @@ namespace {
 constexpr double kShoulderBase_m = 0.05;
 constexpr double kNeckForward_m = 0.012;
 
-// A tag's plate lies on the flesh: at least the bone's own radius from its axis, on the
-// side that it faces, at most the radius of a heavy limb and a plate on a strap.
+// A tag's plate lies on the soft tissue: at least the bone's own radius from its axis, on
+// the side that it faces, at most the radius of a heavy limb and a plate on a strap.
 constexpr double kMinRadius_m = 0.02;
 constexpr double kRadiusSigma_m = 0.015;
 /// Distance of a tag from a bone's axis.
 struct UsualRadius {
-  double usual_m = 0.0;  ///< An adult's flesh at half the bone's length, and a plate.
+  double usual_m =
+      0.0;  ///< An adult's soft tissue at half the bone's length, and a plate.
   double sigma_m = 0.0;  ///< Slim to stout, and along the bone.
   double max_m = 0.0;
 };
@@ -117,7 +118,7 @@ struct TagTerms {
   std::array<Jet, 5> residual{};
 };
 
-/// Returns the tag's normal, which points into the flesh.
+/// Returns the tag's normal, which points into the soft tissue.
 JetVector normal_of(const RigidTransform& pose) {
   const Eigen::Vector3d n = eigen(pose.rotation * glm::dvec3(0, 0, 1));
   const Eigen::Matrix3d by_turn = -cross_matrix<Eigen::Matrix3d>(n);
@@ -267,7 +268,7 @@ void add_subject_priors(const BodyModel& model,
   }
 }
 
-double off_flesh(const BodyModel& model, std::size_t tag) {
+double off_soft_tissue(const BodyModel& model, std::size_t tag) {
   MAREY_ASSERT(model.place(tag));
   const TagTerms terms = tag_terms(model, tag);
   double sum = 0.0;

@@ -3,8 +3,8 @@
 #pragma once
 
 // Private to reconstruct: priors of a person and of tags: lengths near an average
-// person's and equal on both sides, tags on the flesh around the bone and facing away
-// from it.
+// person's and equal on both sides, tags on the soft tissue around the bone and facing
+// away from it.
 
 #include <Eigen/Core>
 
@@ -32,8 +32,8 @@ void add_subject_priors(const BodyModel& model,
                         const SubjectColumns& columns,
                         SubjectSystem& out);
 
-/// Returns the distance of the tag from the flesh of its segment, in the prior's sigmas
-/// and without the Gaussian terms; 0 on it.
-[[nodiscard]] double off_flesh(const BodyModel& model, std::size_t tag);
+/// Returns the distance of the tag from the soft tissue of its segment, in the prior's
+/// sigmas and without the Gaussian terms; 0 on it.
+[[nodiscard]] double off_soft_tissue(const BodyModel& model, std::size_t tag);
 
 }  // namespace marey::reconstruct

@@ -142,11 +142,11 @@ Status check_cameras(std::span<const Camera> cameras,
   for (std::size_t a = 0; a < cameras.size(); ++a) {
     for (std::size_t b = a + 1; b < cameras.size(); ++b) {
       std::swap(order[a], order[b]);
-      const double swapped_px =
+      const double exchanged_px =
           compare(cameras, order, sightings, tags).worst_px().value_or(as_given_px);
       std::swap(order[a], order[b]);
-      if (swapped_px >= best_px) continue;
-      best_px = swapped_px;
+      if (exchanged_px >= best_px) continue;
+      best_px = exchanged_px;
       best_a = a;
       best_b = b;
     }

@@ -42,7 +42,7 @@ constexpr std::array kStudio{
     Row{"?mt5", "?metatarsal_5_head"},
 };
 
-/// MoSh and SOMA, whose labels name the flesh as well.
+/// MoSh and SOMA, whose labels name the soft tissue as well.
 constexpr std::array kSurface{
     Row{"?fhd", "?front_head"}, Row{"?bhd", "?back_head"}, Row{"fhead", "forehead"},
     Row{"bhead", "occiput"}, Row{"?cheeck", "head"}, Row{"chin", "head"},

@@ -12,7 +12,7 @@
 #include "core/base/quantile.h"
 #include "core/pose.h"
 #include "reconstruct/clusters/sightings.h"
-#include "reconstruct/markers/flesh.h"
+#include "reconstruct/markers/soft_tissue.h"
 
 namespace marey::reconstruct {
 namespace {
@@ -21,7 +21,7 @@ namespace {
 // laboratories.
 constexpr double kFarSigmas = 4.0;
 // Length of the wands of gait sets.
-constexpr double kOutsideFlesh_m = 0.10;
+constexpr double kOutsideSoftTissue_m = 0.10;
 constexpr std::size_t kFrames = 200;
 constexpr std::size_t kMinFrames = 3;
 // Markers are put on again between trials, and skin slides. [m]
@@ -325,10 +325,10 @@ std::vector<FaultyLabel> assess_fit_labels(const MarkersFit& fit,
     const Landmark* landmark = landmark_of(labels, marker.label);
     if (landmark == nullptr) continue;
     const auto sigmas = landmark_distance_sigmas(marker, *landmark, body.stature_m);
-    const double outside_m = outside_flesh_m(
+    const double outside_m = outside_soft_tissue_m(
         marker.segment, marker.p_in_segment, body.proportions, body.stature_m);
     const bool is_off = sigmas && *sigmas > kFarSigmas;
-    if (!is_off && outside_m < kOutsideFlesh_m) continue;
+    if (!is_off && outside_m < kOutsideSoftTissue_m) continue;
     FaultyLabel finding;
     finding.fault = LabelFault::kOffLandmark;
     finding.label = marker.label;

@@ -138,7 +138,7 @@ class TrialSides {
     for (std::size_t f = 0; f < tracks.frames(); f += step) frames_.push_back(f);
   }
 
-  [[nodiscard]] SwappedSides sides() const {
+  [[nodiscard]] SideExchange sides() const {
     bool is_trunk_alone = true;
     Votes mirrored = mirrored_frames(false);
     if (mirrored.all < kMinFrames) {
@@ -150,16 +150,16 @@ class TrialSides {
     const Votes legs = turned_pairs(Part::kLegs, is_trunk_alone && is_mirrored);
     const Votes arms = turned_pairs(Part::kArms, is_trunk_alone && is_mirrored);
     if (!is_trunk_alone) {
-      if (legs.nearly_all()) return SwappedSides::kLegs;
-      if (is_mirrored) return SwappedSides::kAll;
+      if (legs.nearly_all()) return SideExchange::kLegs;
+      if (is_mirrored) return SideExchange::kAll;
     } else if (is_mirrored) {
       const bool is_any_limb = legs.all + arms.all > 0;
       const bool is_limb_turned = legs.nearly_all() || arms.nearly_all();
-      return is_any_limb && !is_limb_turned ? SwappedSides::kTrunk : SwappedSides::kAll;
+      return is_any_limb && !is_limb_turned ? SideExchange::kTrunk : SideExchange::kAll;
     } else if (legs.nearly_all()) {
-      return SwappedSides::kLegs;
+      return SideExchange::kLegs;
     }
-    return arms.nearly_all() ? SwappedSides::kArms : SwappedSides::kNone;
+    return arms.nearly_all() ? SideExchange::kArms : SideExchange::kNone;
   }
 
   void find_up(TrialGeometry& out) const {

@@ -15,7 +15,7 @@
 namespace marey::reconstruct {
 
 /// The labels whose left and right are exchanged in a trial.
-enum class SwappedSides {
+enum class SideExchange {
   kNone,
   kAll,    ///< All labels; or the axes of the file are left-handed.
   kTrunk,  ///< The trunk's labels; legs and arms are right.
@@ -25,7 +25,7 @@ enum class SwappedSides {
 
 /// Properties of a whole trial that its labels determine before any body is fitted.
 struct TrialGeometry {
-  SwappedSides sides = SwappedSides::kNone;
+  SideExchange sides = SideExchange::kNone;
   /// Unit vector from the feet to the trunk, or from the hips to the head without feet,
   /// in the world: the mean over the frames. nullopt if the labels do not determine it.
   std::optional<glm::dvec3> body_up;

@@ -19,14 +19,13 @@ namespace marey::reconstruct {
 /// spines of the pelvis (Harrington et al. 2007) as far as movement does not determine
 /// them.
 /// Labels without a landmark are assigned to the segment that they move with, if two
-/// named markers determine its movement and the place is within its flesh; labels that
-/// fit several segments are left out. Markers that move with another segment than the one
-/// they are named for are moved there by the same rules; markers that move with none are
-/// left out.
-/// Deterministic. Cost: some seconds, independent of the trials' lengths, and more with
-/// hundreds of trials. Errors (kBadInput, `where` empty): fewer than six labels have
-/// landmarks, or none of them is on the hips or the trunk; no frame shows six of them; no
-/// body explains them.
+/// named markers determine its movement and the place is within its soft tissue; labels
+/// that fit several segments are left out. Markers that move with another segment than
+/// the one they are named for are moved there by the same rules; markers that move with
+/// none are left out. Deterministic. Cost: some seconds, independent of the trials'
+/// lengths, and more with hundreds of trials. Errors (kBadInput, `where` empty): fewer
+/// than six labels have landmarks, or none of them is on the hips or the trunk; no frame
+/// shows six of them; no body explains them.
 [[nodiscard]] Result<MarkersFit> fit_markers(const MarkerSubject& subject,
                                              std::span<const MarkerTracks> trials,
                                              std::span<const NamedMarker> labels,

@@ -8,7 +8,7 @@
 
 #include "core/base/quantile.h"
 #include "reconstruct/clusters/sightings.h"
-#include "reconstruct/markers/flesh.h"
+#include "reconstruct/markers/soft_tissue.h"
 
 namespace marey::reconstruct {
 
@@ -110,8 +110,8 @@ std::optional<MarkerPlace> best_segment(std::span<const Snapshot> snapshots,
     const auto place = place_on(snapshots, model, label, bone);
     if (!place) continue;
     const Vector3d& p = place->p_in_bone;
-    const double outside_m =
-        outside_flesh_m(bone, {p.x(), p.y(), p.z()}, rules.proportions, rules.stature_m);
+    const double outside_m = outside_soft_tissue_m(
+        bone, {p.x(), p.y(), p.z()}, rules.proportions, rules.stature_m);
     if (outside_m < kOutside_m) places.push_back(*place);
   }
   if (places.empty()) return std::nullopt;

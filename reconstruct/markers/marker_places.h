@@ -48,8 +48,9 @@ struct SegmentRules {
                                                   HumanBone bone);
 
 /// Returns the place on the bone from which the marker strays least, among bones with at
-/// least two named markers and with the place within their flesh. Returns nullopt if
-/// there is none, or if it strays equally little from two bones that are not neighbours.
+/// least two named markers and with the place within their soft tissue. Returns nullopt
+/// if there is none, or if it strays equally little from two bones that are not
+/// neighbours.
 [[nodiscard]] std::optional<MarkerPlace> best_segment(std::span<const Snapshot> snapshots,
                                                       const MarkerModel& model,
                                                       std::size_t label,

@@ -23,7 +23,7 @@ using Renaming = std::map<HumanBone, HumanBone>;
 
 /// Finds the exchange of segments with which neighbours turn about common centres far
 /// better than as declared; empty if there is none. Does not detect whole limbs that are
-/// exchanged between the sides: see swapped_sides().
+/// exchanged between the sides: see exchanged_limbs().
 [[nodiscard]] Renaming exchanged_segments(std::span<const TagCluster> clusters,
                                           std::span<const ClusterPoses> frames);
 

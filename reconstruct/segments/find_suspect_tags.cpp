@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/base/assert.h"
+#include "reconstruct/segments/exchanged_limbs.h"
 #include "reconstruct/segments/exchanged_segments.h"
-#include "reconstruct/segments/swapped_sides.h"
 #include "reconstruct/segments/tag_groups.h"
 
 namespace marey::reconstruct {
@@ -85,7 +85,7 @@ Movement find_movement(const Proportions& average,
   const auto found =
       find_segment_frames(body.clusters, body.standing, body.moving, average);
   if (!found) return out;
-  const auto sides = swapped_sides(*found, body.clusters, body.standing, body.moving);
+  const auto sides = exchanged_limbs(*found, body.clusters, body.standing, body.moving);
   if (sides) {
     rename_all(*sides, body, out.segments);
   } else {

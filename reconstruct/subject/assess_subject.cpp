@@ -54,7 +54,7 @@ constexpr double kBoneHardlySeenTwice = 0.05;
 // attached to it: half a second of a slow movement.
 constexpr int kMinLocated = 15;
 // Sigmas of the prior of a tag's place on its segment.
-constexpr double kMaxOffFlesh = 3.0;
+constexpr double kMaxOffSoftTissue = 3.0;
 // No person stands with a thigh or an upper arm turned further. [rad]
 constexpr double kMaxStandingTurn_rad = 1.75;
 
@@ -183,10 +183,10 @@ void assess_locations(const SubjectBundle& bundle,
   }
 }
 
-/// Checks for tags that the fit placed off the flesh of their segment.
+/// Checks for tags that the fit placed off the soft tissue of their segment.
 void assess_places(const SubjectBundle& bundle, std::vector<Finding>& out) {
   for (const auto& [tag, place] : bundle.model.segment_from_tag) {
-    if (off_flesh(bundle.model, tag) < kMaxOffFlesh) continue;
+    if (off_soft_tissue(bundle.model, tag) < kMaxOffSoftTissue) continue;
     const TagOnSegment& declared = bundle.model.tags[tag];
     out.push_back(
         doubtful("tag " + std::to_string(number(declared.id)) +

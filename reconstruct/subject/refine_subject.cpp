@@ -125,7 +125,7 @@ std::vector<std::size_t> unexplained_tags(const SubjectBundle& bundle,
   std::vector<std::size_t> tags;
   for (const TagEvidence& e : tag_evidence(cameras, bundle)) {
     const bool is_lost = e.explained_share < kMinExplainedShare;
-    const bool is_in_the_air = off_flesh(bundle.model, e.tag) > 3.0;
+    const bool is_in_the_air = off_soft_tissue(bundle.model, e.tag) > 3.0;
     if (is_lost || is_in_the_air) tags.push_back(e.tag);
   }
   return tags;

@@ -118,7 +118,7 @@ bool is_plausible(std::size_t limb, const SubjectBundle& bundle) {
   if (!turn_rad || std::abs(*turn_rad) > kUsualTurn_rad) return false;
   return std::ranges::all_of(bundle.model.segment_from_tag, [&](const auto& placed) {
     return !is_of(human_limbs()[limb], bundle.model.bone(placed.first)) ||
-           off_flesh(bundle.model, placed.first) < 1.0;
+           off_soft_tissue(bundle.model, placed.first) < 1.0;
   });
 }
 

@@ -64,7 +64,7 @@ class TrackChecker {
     const MarkerDistances distances(checked_.tracks);
     distances_ = &distances;
     // Swaps are detectable only while both samples exist: swaps first.
-    undo_swaps(find_runs());
+    undo_exchanges(find_runs());
     drop_outliers(find_runs());
     std::stable_sort(checked_.findings.begin(),
                      checked_.findings.end(),
@@ -238,7 +238,7 @@ class TrackChecker {
     return runs;
   }
 
-  void undo_swaps(const std::vector<Run>& runs) {
+  void undo_exchanges(const std::vector<Run>& runs) {
     for (const Run& run : runs) {
       const auto as_it_is = misplaced_run(run, run.marker, run.marker, std::nullopt);
       if (!as_it_is || !as_it_is->is_far()) continue;
@@ -247,7 +247,7 @@ class TrackChecker {
       for (std::size_t f = run.first; f < run.end; ++f) {
         std::swap(tracks().at(f, run.marker), tracks().at(f, *other));
       }
-      checked_.findings.push_back({TrackFault::kSwapped,
+      checked_.findings.push_back({TrackFault::kExchanged,
                                    run.marker,
                                    other,
                                    run.first,
@@ -315,7 +315,7 @@ std::string_view name(TrackFault fault) {
       return "no-number";
     case TrackFault::kFrozen:
       return "frozen";
-    case TrackFault::kSwapped:
+    case TrackFault::kExchanged:
       return "swapped";
     case TrackFault::kGhost:
       return "ghost";

@@ -13,11 +13,11 @@ namespace marey::reconstruct {
 
 /// Faults of a sample.
 enum class TrackFault {
-  kNoNumber,  ///< Not a number, or outside of any capture volume.
-  kFrozen,    ///< The marker is exactly still while its body moves.
-  kSwapped,   ///< Two markers have each other's names.
-  kGhost,     ///< Another object between two gaps: a reflection, another marker.
-  kJump,      ///< Off its place without a gap before and after.
+  kNoNumber,   ///< Not a number, or outside of any capture volume.
+  kFrozen,     ///< The marker is exactly still while its body moves.
+  kExchanged,  ///< Two markers have each other's names.
+  kGhost,      ///< Another object between two gaps: a reflection, another marker.
+  kJump,       ///< Off its place without a gap before and after.
 };
 
 /// Returns "no-number", "frozen", "swapped", "ghost", "jump": the words of reports.

@@ -131,7 +131,7 @@ void add_breast_mark(Figure& figure, std::span<const Section> sections) {
 }  // namespace
 
 void add_trunk(Figure& figure) {
-  // Width of the flesh outside of the hip joints.
+  // Width of the soft tissue outside of the hip joints.
   constexpr double kBeside = 0.040;
   const double hips = half_breadth(figure, B::kLeftUpperLeg, B::kRightUpperLeg) + kBeside;
   const double shoulders = half_breadth(figure, B::kLeftUpperArm, B::kRightUpperArm);

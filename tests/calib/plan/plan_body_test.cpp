@@ -41,15 +41,15 @@ TEST(DressBody, WearsTagsOffItsSkinFacingOut) {
   const PlannedBody body = make_planned_body(1.75, typical_tags(0.08));
   ASSERT_EQ(body.tags.size(), 29U);
   const BodyPlace place = standing_body(body, {0.3, -0.2}, 1.0);
-  const auto flesh = flesh_of(body, place);
+  const auto soft_tissue = soft_tissue_of(body, place);
   for (const PlacedTag& tag : body.tags) {
     const RigidTransform world_from_tag =
         place[index(tag.tag.segment)] * tag.segment_from_tag;
     const glm::dvec3 out = world_from_tag.rotation * glm::dvec3(0.0, 0.0, -1.0);
     // From a metre in front, the tag is visible; from behind, the body hides it.
     const glm::dvec3 centre = world_from_tag.translation;
-    EXPECT_FALSE(is_hidden(centre, centre + out, flesh)) << number(tag.tag.id);
-    EXPECT_TRUE(is_hidden(centre, centre - out, flesh)) << number(tag.tag.id);
+    EXPECT_FALSE(is_hidden(centre, centre + out, soft_tissue)) << number(tag.tag.id);
+    EXPECT_TRUE(is_hidden(centre, centre - out, soft_tissue)) << number(tag.tag.id);
   }
 }
 

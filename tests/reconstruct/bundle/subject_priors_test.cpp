@@ -27,14 +27,14 @@ BodyModel one_tag(HumanBone segment, const RigidTransform& segment_from_tag) {
 }
 
 /// Returns a tag on the front of the left shank, half way down: its normal points into
-/// the flesh.
+/// the soft tissue.
 RigidTransform on_shank(double forward_m) {
   return {glm::angleAxis(glm::pi<double>(), glm::dvec3(0, 1, 0)),
           glm::dvec3(0.0, -0.2, forward_m)};
 }
 
 double off(HumanBone segment, const RigidTransform& segment_from_tag) {
-  return off_flesh(one_tag(segment, segment_from_tag), 0);
+  return off_soft_tissue(one_tag(segment, segment_from_tag), 0);
 }
 
 double cost_of(const BodyModel& model, SubjectSystem& system) {

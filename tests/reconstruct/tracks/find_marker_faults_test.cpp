@@ -28,7 +28,7 @@ TEST(FindMarkerFaults, ExchangesSwappedMarkersBack) {
   for (std::size_t f = 150; f < 210; ++f) std::swap(swapped.at(f, 2), swapped.at(f, 17));
   const CheckedTracks checked = find_marker_faults(swapped);
   ASSERT_EQ(checked.findings.size(), 1U);
-  EXPECT_EQ(checked.findings[0].fault, TrackFault::kSwapped);
+  EXPECT_EQ(checked.findings[0].fault, TrackFault::kExchanged);
   EXPECT_EQ(checked.findings[0].marker, 2U);
   EXPECT_EQ(checked.findings[0].other, 17U);
   EXPECT_EQ(checked.findings[0].first, 150U);

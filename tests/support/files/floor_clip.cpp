@@ -63,7 +63,7 @@ std::vector<Posture> postures(const Skeleton& body) {
   return out;
 }
 
-/// Sets the body on the floor: the lowest joint is above it by its flesh.
+/// Sets the body on the floor: the lowest joint is above it by its soft tissue.
 void set_down(const Skeleton& body, Pose& pose) {
   const auto frames = world_from_joints(body, pose);
   double lowest_m = 1e9;
@@ -71,11 +71,11 @@ void set_down(const Skeleton& body, Pose& pose) {
     const B bone = static_cast<B>(j);
     const bool is_ankle = bone == B::kLeftFoot || bone == B::kRightFoot;
     const bool is_toe = bone == B::kLeftToes || bone == B::kRightToes;
-    const double flesh_m = is_toe             ? 0.018
-                           : is_ankle         ? 0.068
-                           : bone == B::kHips ? 0.1
-                                              : 0.05;
-    lowest_m = std::min(lowest_m, frames[j].translation.y - flesh_m);
+    const double soft_tissue_m = is_toe             ? 0.018
+                                 : is_ankle         ? 0.068
+                                 : bone == B::kHips ? 0.1
+                                                    : 0.05;
+    lowest_m = std::min(lowest_m, frames[j].translation.y - soft_tissue_m);
     if (const auto& tip = body.joints[j].tip_in_joint; tip && !is_toe) {
       lowest_m = std::min(lowest_m, (frames[j] * *tip).y - 0.005);
     }

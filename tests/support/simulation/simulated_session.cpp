@@ -102,9 +102,10 @@ SimulatedSession simulate_session(std::uint64_t seed) {
   const Exercise moving = draw_range_of_motion(dice, s.diligence, heading);
   const Exercise motion = draw_motion(dice, heading);
   s.reference = standing.base;
-  const std::vector<FleshPart> flesh = flesh_of(s.body);
-  s.tags = glue_tags(s.body, flesh, s.style, postures_of(moving), s.reference, dice);
-  const SimulatedScene scene{&s.body, &flesh, &s.tags, s.reference};
+  const std::vector<SoftTissuePart> soft_tissue = soft_tissue_of(s.body);
+  s.tags =
+      glue_tags(s.body, soft_tissue, s.style, postures_of(moving), s.reference, dice);
+  const SimulatedScene scene{&s.body, &soft_tissue, &s.tags, s.reference};
   const Recorder recorder{
       scene, s.rig.cameras, dice.between(0.004, 0.012), dice.between(0.9, 1.15), dice};
   s.standing = recorder.record("static", standing, 15.0, 0.005);

@@ -217,7 +217,7 @@ class Detector {
     const GluedTag& tag = (*scene_.tags)[i];
     const glm::dvec3 eye = centre_in_world(camera_);
     const auto is_hidden_at = [&](const glm::dvec3& p_in_tag) {
-      return is_hidden(*scene_.flesh,
+      return is_hidden(*scene_.soft_tissue,
                        now.bones,
                        now.world_from_tag[i] * p_in_tag,
                        eye,

@@ -16,7 +16,7 @@ namespace marey::testing {
 /// A person with tags who moves before cameras.
 struct SimulatedScene {
   const SimulatedBody* body = nullptr;  ///< Borrowed, as all here.
-  const std::vector<FleshPart>* flesh = nullptr;
+  const std::vector<SoftTissuePart>* soft_tissue = nullptr;
   const std::vector<GluedTag>* tags = nullptr;
   Attitude reference{};  ///< The posture in which no tag slides.
 };
@@ -34,8 +34,8 @@ struct SimulatedFilm {
 /// Returns the cameras' detections. They follow docs/accuracy/tags.md
 /// and "Plans". The chance of reading a tag falls with a shorter edge, a larger angle and
 /// more motion blur. Corners err by 0.08 to 0.10 px; 3 % of the variance is common to all
-/// sightings of a tag by one camera. Flesh hides tags. Sightings drop out at random and
-/// in bursts. One in ten thousand is followed by a tag that is not there.
+/// sightings of a tag by one camera. Soft tissue hides tags. Sightings drop out at random
+/// and in bursts. One in ten thousand is followed by a tag that is not there.
 [[nodiscard]] std::vector<CameraDetections> film(const SimulatedScene& scene,
                                                  const Exercise& exercise,
                                                  const std::vector<Camera>& cameras,

@@ -133,7 +133,7 @@ void add_skin(GluedTag& tag,
   const glm::dvec3 normal = tag.segment_from_tag.rotation * glm::dvec3(0, 0, 1);
   for (const std::size_t angle : pulling_angles(tag.tag.segment)) {
     glm::dvec3 slide = dice.direction() * dice.between(0.3, 1.0);
-    // Skin slides over the flesh more than it lifts off.
+    // Skin slides over the soft tissue more than it lifts off.
     slide -= 0.7 * glm::dot(slide, normal) * normal;
     tag.pulls.push_back({angle, slide});
   }
@@ -217,7 +217,7 @@ std::vector<int> shuffled_ids(Dice& dice) {
 }  // namespace
 
 std::vector<GluedTag> glue_tags(const SimulatedBody& body,
-                                std::span<const FleshPart> flesh,
+                                std::span<const SoftTissuePart> soft_tissue,
                                 const TagStyle& style,
                                 std::span<const Attitude> range,
                                 const Attitude& reference,
@@ -239,7 +239,7 @@ std::vector<GluedTag> glue_tags(const SimulatedBody& body,
       if (right) side.x = -side.x;
       const double share = dice.between(placement.from_share, placement.to_share);
       const glm::dvec3 end = end_of(segment, body.proportions);
-      const SkinPoint skin = skin_point(flesh, segment, share * end, side);
+      const SkinPoint skin = skin_point(soft_tissue, segment, share * end, side);
       GluedTag tag;
       tag.tag = {TagId{ids[tags.size()]},
                  segment,

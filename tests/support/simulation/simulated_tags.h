@@ -9,7 +9,7 @@
 #include "core/body.h"
 #include "tests/support/simulation/simulated_body.h"
 #include "tests/support/simulation/simulated_exercise.h"
-#include "tests/support/simulation/simulated_flesh.h"
+#include "tests/support/simulation/simulated_soft_tissue.h"
 
 namespace marey::testing {
 
@@ -42,7 +42,7 @@ struct TagStyle {
 /// of the range of motion: slides have their size over it. `reference` is the posture in
 /// which no tag slides.
 [[nodiscard]] std::vector<GluedTag> glue_tags(const SimulatedBody& body,
-                                              std::span<const FleshPart> flesh,
+                                              std::span<const SoftTissuePart> soft_tissue,
                                               const TagStyle& style,
                                               std::span<const Attitude> range,
                                               const Attitude& reference,

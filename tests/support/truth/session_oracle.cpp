@@ -190,7 +190,7 @@ class Locator {
 };
 
 /// Lines through tags along their normals pass the bone: information on a point of it.
-Eigen::Matrix3d flesh_information(const SimulatedSession& session, B segment) {
+Eigen::Matrix3d soft_tissue_information(const SimulatedSession& session, B segment) {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   const bool is_trunk = segment == B::kHips || segment == B::kUpperChest;
   if (is_trunk) return information;
@@ -241,8 +241,8 @@ double joint_sigma_m(const SimulatedSession& session,
     count += 1.0;
   }
   normal *= std::min(1.0, kMaxFrames / std::max(1.0, count));
-  normal.topLeftCorner<3, 3>() += flesh_information(session, pair.trunkward);
-  normal.bottomRightCorner<3, 3>() += flesh_information(session, pair.joint);
+  normal.topLeftCorner<3, 3>() += soft_tissue_information(session, pair.trunkward);
+  normal.bottomRightCorner<3, 3>() += soft_tissue_information(session, pair.joint);
   const Matrix6 covariance =
       (normal + Matrix6::Identity()).ldlt().solve(Matrix6::Identity());
   const auto worst = [&](int from) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/simulation/simulated_flesh.h"
+#include "tests/support/simulation/simulated_soft_tissue.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@ namespace {
 
 using B = HumanBone;
 
-bool is_ellipsoid(const FleshPart& part) {
+bool is_ellipsoid(const SoftTissuePart& part) {
   return part.a == part.b;
 }
 
@@ -50,7 +50,7 @@ double distance2_to_origin(const glm::dvec3& p, const glm::dvec3& q) {
 }
 
 /// Returns the depth of a point in a part: below 1 is inside.
-double depth(const FleshPart& part, const glm::dvec3& p) {
+double depth(const SoftTissuePart& part, const glm::dvec3& p) {
   if (is_ellipsoid(part)) return glm::length((p - part.a) / part.radii);
   const glm::dvec3 along = part.b - part.a;
   const double s =
@@ -58,9 +58,9 @@ double depth(const FleshPart& part, const glm::dvec3& p) {
   return glm::length(p - part.a - s * along) / part.radii.x;
 }
 
-class FleshMaker {
+class SoftTissueMaker {
  public:
-  explicit FleshMaker(const SimulatedBody& body) : body_(body) {}
+  explicit SoftTissueMaker(const SimulatedBody& body) : body_(body) {}
 
   void ellipsoid(B bone, const glm::dvec3& centre, const glm::dvec3& radii) {
     const double h = body_.stature_m;
@@ -75,17 +75,17 @@ class FleshMaker {
       parts_.push_back({bone, from * end, to * end, glm::dvec3(radius_m)});
     }
   }
-  [[nodiscard]] std::vector<FleshPart> parts() const { return parts_; }
+  [[nodiscard]] std::vector<SoftTissuePart> parts() const { return parts_; }
 
  private:
   const SimulatedBody& body_;
-  std::vector<FleshPart> parts_;
+  std::vector<SoftTissuePart> parts_;
 };
 
 }  // namespace
 
-std::vector<FleshPart> flesh_of(const SimulatedBody& body) {
-  FleshMaker make(body);
+std::vector<SoftTissuePart> soft_tissue_of(const SimulatedBody& body) {
+  SoftTissueMaker make(body);
   make.ellipsoid(B::kHips, {0, -0.005, -0.005}, {0.096, 0.085, 0.068});
   make.ellipsoid(B::kSpine, {0, 0.035, 0.0}, {0.080, 0.075, 0.060});
   make.ellipsoid(B::kChest, {0, 0.040, 0.0}, {0.086, 0.095, 0.066});
@@ -107,7 +107,7 @@ std::vector<FleshPart> flesh_of(const SimulatedBody& body) {
   return make.parts();
 }
 
-SkinPoint skin_point(std::span<const FleshPart> flesh,
+SkinPoint skin_point(std::span<const SoftTissuePart> soft_tissue,
                      HumanBone bone,
                      const glm::dvec3& from_in_bone,
                      const glm::dvec3& direction) {
@@ -118,7 +118,7 @@ SkinPoint skin_point(std::span<const FleshPart> flesh,
   SkinPoint found{from_in_bone, d};
   for (double s = 0.0; s < kMaxDistance_m; s += kStep_m) {
     const glm::dvec3 p = from_in_bone + s * d;
-    for (const FleshPart& part : flesh) {
+    for (const SoftTissuePart& part : soft_tissue) {
       if (part.bone != bone || depth(part, p) > 1.0) continue;
       found.p_in_bone = p;
       if (is_ellipsoid(part)) {
@@ -132,13 +132,13 @@ SkinPoint skin_point(std::span<const FleshPart> flesh,
   return found;
 }
 
-bool is_hidden(std::span<const FleshPart> flesh,
+bool is_hidden(std::span<const SoftTissuePart> soft_tissue,
                const BoneFrames& world_from_bone,
                const glm::dvec3& p_in_world,
                const glm::dvec3& eye_in_world,
                HumanBone own,
                double thinner_m) {
-  for (const FleshPart& part : flesh) {
+  for (const SoftTissuePart& part : soft_tissue) {
     const double less_m = part.bone == own ? thinner_m : 0.0;
     const RigidTransform& frame = world_from_bone[index(part.bone)];
     if (is_ellipsoid(part)) {

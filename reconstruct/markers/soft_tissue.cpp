@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/markers/flesh.h"
+#include "reconstruct/markers/soft_tissue.h"
 
 #include <algorithm>
 
@@ -14,8 +14,8 @@ using B = HumanBone;
 // A marker's centre is 8 mm above the skin, on a base or a suit up to 20. [m]
 constexpr double kAboveSkin_m = 0.02;
 
-/// Start and end of a bone's flesh in the bone's frame, and its thickness there in shares
-/// of stature.
+/// Start and end of a bone's soft tissue in the bone's frame, and its thickness there in
+/// shares of stature.
 struct Capsule {
   glm::dvec3 a{0.0};
   glm::dvec3 b{0.0};
@@ -75,10 +75,10 @@ Capsule capsule_of(HumanBone bone, const Proportions& p) {
 
 }  // namespace
 
-double outside_flesh_m(HumanBone bone,
-                       const glm::dvec3& p_in_bone,
-                       const Proportions& proportions,
-                       double stature_m) {
+double outside_soft_tissue_m(HumanBone bone,
+                             const glm::dvec3& p_in_bone,
+                             const Proportions& proportions,
+                             double stature_m) {
   const Capsule capsule = capsule_of(bone, proportions);
   const glm::dvec3 along = capsule.b - capsule.a;
   const double squared = glm::dot(along, along);

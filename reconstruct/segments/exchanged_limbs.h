@@ -15,9 +15,9 @@ namespace marey::reconstruct {
 /// forward and feet point backward relative to the hips. Empty if neither is, or without
 /// evidence. `found` was computed from `standing` and `moving`. Error (kBadInput): chest
 /// and hips face opposite ways, and neither knees nor feet show which of them is wrong.
-[[nodiscard]] Result<Renaming> swapped_sides(const SegmentFrames& found,
-                                             std::span<const TagCluster> clusters,
-                                             std::span<const ClusterPoses> standing,
-                                             std::span<const ClusterPoses> moving);
+[[nodiscard]] Result<Renaming> exchanged_limbs(const SegmentFrames& found,
+                                               std::span<const TagCluster> clusters,
+                                               std::span<const ClusterPoses> standing,
+                                               std::span<const ClusterPoses> moving);
 
 }  // namespace marey::reconstruct

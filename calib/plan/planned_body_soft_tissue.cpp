@@ -73,8 +73,8 @@ double distance2(const glm::dvec3& p1,
 
 }  // namespace
 
-std::vector<Capsule> flesh_of(const PlannedBody& body, const BodyPlace& place) {
-  std::vector<Capsule> flesh;
+std::vector<Capsule> soft_tissue_of(const PlannedBody& body, const BodyPlace& place) {
+  std::vector<Capsule> soft_tissue;
   const auto add = [&](const Part& part, bool mirror) {
     const auto at = [&](B bone, glm::dvec3 offset) {
       if (mirror) {
@@ -83,21 +83,21 @@ std::vector<Capsule> flesh_of(const PlannedBody& body, const BodyPlace& place) {
       }
       return place[index(bone)] * (body.stature_m * offset);
     };
-    flesh.push_back({at(part.from, part.from_offset),
-                     at(part.to, part.to_offset),
-                     part.radius * body.stature_m});
+    soft_tissue.push_back({at(part.from, part.from_offset),
+                           at(part.to, part.to_offset),
+                           part.radius * body.stature_m});
   };
   for (const Part& part : kParts) {
     add(part, false);
     if (is_left(part.from) || is_left(part.to)) add(part, true);
   }
-  return flesh;
+  return soft_tissue;
 }
 
 bool is_hidden(const glm::dvec3& p_in_world,
                const glm::dvec3& eye_in_world,
-               std::span<const Capsule> flesh) {
-  return std::any_of(flesh.begin(), flesh.end(), [&](const Capsule& part) {
+               std::span<const Capsule> soft_tissue) {
+  return std::any_of(soft_tissue.begin(), soft_tissue.end(), [&](const Capsule& part) {
     return distance2(p_in_world, eye_in_world, part.from_in_world, part.to_in_world) <
            part.radius_m * part.radius_m;
   });

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/segments/swapped_sides.h"
+#include "reconstruct/segments/exchanged_limbs.h"
 
 #include <algorithm>
 #include <array>
@@ -146,10 +146,10 @@ Renaming mirrored_limbs(std::span<const std::size_t> left_limbs) {
 
 }  // namespace
 
-Result<Renaming> swapped_sides(const SegmentFrames& found,
-                               std::span<const TagCluster> clusters,
-                               std::span<const ClusterPoses> standing,
-                               std::span<const ClusterPoses> moving) {
+Result<Renaming> exchanged_limbs(const SegmentFrames& found,
+                                 std::span<const TagCluster> clusters,
+                                 std::span<const ClusterPoses> standing,
+                                 std::span<const ClusterPoses> moving) {
   // The cosine of 60 degrees. In a standing body hips turn by less against the chest, and
   // knees against the hips.
   constexpr double kSure = 0.5;
