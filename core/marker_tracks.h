@@ -12,7 +12,7 @@
 
 #include "core/base/assert.h"
 #include "core/base/time.h"
-#include "core/provenance.h"
+#include "core/source.h"
 
 namespace marey {
 

@@ -6,8 +6,8 @@
 
 #include "core/base/time.h"
 #include "core/pose.h"
-#include "core/provenance.h"
 #include "core/skeleton.h"
+#include "core/source.h"
 
 namespace marey {
 

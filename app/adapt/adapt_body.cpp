@@ -17,7 +17,7 @@
 #include "recordings/gltf/gltf.h"
 #include "recordings/motion/bvh.h"
 #include "retarget/character/make_character.h"
-#include "retarget/feet/ground.h"
+#include "retarget/feet/adapt_to_ground.h"
 #include "retarget/motion/retarget_motion.h"
 
 namespace marey::app {

@@ -15,7 +15,7 @@
 #include "app/shell/stop_signal.h"
 #include "core/base/extension.h"
 #include "live/udp/udp_sender.h"
-#include "live/vmc/received_motion.h"
+#include "live/vmc/motion_resampler.h"
 #include "live/vmc/sender_clock.h"
 #include "live/vmc/vmc_receiver.h"
 #include "recordings/base/atomic_file.h"

@@ -9,7 +9,7 @@
 #include "core/pose.h"
 #include "retarget/bones/body_frame.h"
 #include "retarget/bones/identify_bones.h"
-#include "retarget/bones/neutral_pose.h"
+#include "retarget/bones/set_rest_pose.h"
 #include "retarget/bones/up_of_motion.h"
 
 namespace marey::app {
@@ -59,7 +59,7 @@ Status take_frame(int frame,
                      "give a frame from 0 to " + std::to_string(count - 1));
   }
   const Pose pose = motion.poses[static_cast<std::size_t>(frame)];
-  retarget::rest_as_pose(motion, found, up, pose);
+  retarget::set_rest_pose(motion, found, up, pose);
   return check_stands(motion, found, "frame " + std::to_string(frame));
 }
 
@@ -78,7 +78,7 @@ Status take_file(const std::filesystem::path& file,
       other.joints[i].parent_from_joint.rotation = first.parent_from_joint[i];
     }
   }
-  if (const Status ok = retarget::rest_as_other(other, found, up, motion); !ok) {
+  if (const Status ok = retarget::copy_rest_pose(other, found, up, motion); !ok) {
     Error error = ok.error();
     error.where = file.string();
     return error;

@@ -10,7 +10,7 @@
 #include "core/base/extension.h"
 #include "recordings/body/bone_map_file.h"
 #include "retarget/body/body_map.h"
-#include "retarget/body/fit_volume.h"
+#include "retarget/body/volume_of_skin.h"
 #include "retarget/bones/identify_bones.h"
 #include "retarget/bones/reparent_bones.h"
 

@@ -17,7 +17,7 @@
 #include "core/detection.h"
 #include "core/finding.h"
 #include "core/motion.h"
-#include "core/provenance.h"
+#include "core/source.h"
 
 namespace marey::app {
 

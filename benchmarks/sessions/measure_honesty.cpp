@@ -13,7 +13,7 @@
 
 #include "core/base/quantile.h"
 #include "core/humanoid.h"
-#include "core/provenance.h"
+#include "core/source.h"
 #include "recordings/motion/motion_tables.h"
 #include "tests/support/truth/truth.h"
 

@@ -14,7 +14,7 @@
 
 #include "core/base/quantile.h"
 #include "core/humanoid.h"
-#include "core/provenance.h"
+#include "core/source.h"
 #include "core/transform.h"
 #include "recordings/motion/motion_tables.h"
 #include "tests/support/truth/truth.h"

@@ -75,10 +75,10 @@ std::set<int> chosen_instants(const std::vector<Sighting>& sightings,
 
 }  // namespace
 
-RigModel wand_at_instants(std::span<const CameraDetections> waved,
-                          const Wand& wand,
-                          const WandOptions& options,
-                          std::span<const double> offsets_s) {
+RigModel static_wand_model(std::span<const CameraDetections> waved,
+                           const Wand& wand,
+                           const WandOptions& options,
+                           std::span<const double> offsets_s) {
   RigModel model;
   model.targets.resize(1);
   std::map<TagId, std::vector<Sighting>> by_tag;
@@ -124,9 +124,9 @@ RigModel wand_at_instants(std::span<const CameraDetections> waved,
   return model;
 }
 
-RigModel wand_in_motion(RigModel placed,
-                        std::span<const CameraDetections> waved,
-                        std::span<const double> offsets_s) {
+RigModel moving_wand_model(RigModel placed,
+                           std::span<const CameraDetections> waved,
+                           std::span<const double> offsets_s) {
   constexpr std::size_t kMinPoses = 4;
   const double hz = min_hz(waved);
   double spacing_s = 1.0;

@@ -24,16 +24,16 @@ inline constexpr std::size_t kWand = 0;  ///< The first of the model's targets.
 /// number. From a long recording, evenly spaced sections are used. With offsets, these
 /// are a second long, because the motion of the wand is observable only from neighbouring
 /// frames.
-[[nodiscard]] RigModel wand_at_instants(std::span<const CameraDetections> waved,
-                                        const Wand& wand,
-                                        const WandOptions& options,
-                                        std::span<const double> offsets_s);
+[[nodiscard]] RigModel static_wand_model(std::span<const CameraDetections> waved,
+                                         const Wand& wand,
+                                         const WandOptions& options,
+                                         std::span<const double> offsets_s);
 
-/// Builds a model from a placed model of wand_at_instants(), with a smooth motion of the
+/// Builds a model from a placed model of static_wand_model(), with a smooth motion of the
 /// wand between knots and a clock per camera, like moving_model() for boards. All parts
 /// of the motion share one layout of tags.
-[[nodiscard]] RigModel wand_in_motion(RigModel placed,
-                                      std::span<const CameraDetections> waved,
-                                      std::span<const double> offsets_s);
+[[nodiscard]] RigModel moving_wand_model(RigModel placed,
+                                         std::span<const CameraDetections> waved,
+                                         std::span<const double> offsets_s);
 
 }  // namespace marey::calib

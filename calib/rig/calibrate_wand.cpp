@@ -17,7 +17,7 @@
 #include "calib/rig/choose_model.h"
 #include "calib/rig/coarse_clocks.h"
 #include "calib/rig/make_calibrated_rig.h"
-#include "calib/rig/place_tags.h"
+#include "calib/rig/place_by_tags.h"
 #include "calib/rig/solve_rig.h"
 #include "core/base/assert.h"
 #include "core/base/quantile.h"
@@ -138,7 +138,7 @@ std::vector<SeenTrack> tracks_of(const RigModel& model) {
 Result<SolvedRig> first_rig(const WandWork& work, LensModel lens) {
   WandOptions options = work.options;
   options.lens = lens;
-  RigModel model = wand_at_instants(work.waved, *work.wand, options, {});
+  RigModel model = static_wand_model(work.waved, *work.wand, options, {});
   if (model.targets[kWand].pieces.empty()) {
     return bad_input("",
                      "no tag of the wand is seen by any camera",
@@ -158,7 +158,7 @@ Result<SolvedRig> first_rig(const WandWork& work, LensModel lens) {
     offsets_s = coarse_offsets_s(tracks_of(model), work.waved, options.max_offset_s);
   }
   if (is_moving) {
-    RigModel by_time = wand_at_instants(work.waved, *work.wand, options, offsets_s);
+    RigModel by_time = static_wand_model(work.waved, *work.wand, options, offsets_s);
     for (std::size_t c = 0; c < model.cameras.size(); ++c) {
       by_time.cameras[c].intrinsics = model.cameras[c].intrinsics;
     }
@@ -168,7 +168,7 @@ Result<SolvedRig> first_rig(const WandWork& work, LensModel lens) {
   if (std::find(placed.begin(), placed.end(), false) != placed.end()) {
     return not_connected(work.names, placed);
   }
-  if (is_moving) model = wand_in_motion(std::move(model), work.waved, offsets_s);
+  if (is_moving) model = moving_wand_model(std::move(model), work.waved, offsets_s);
   SolvedRig first{std::move(model), {}, {}};
   first.refine.on_iteration = work.on_iteration;
   first.refine.fixed_camera = 0;

@@ -12,8 +12,8 @@
 
 #include "core/base/frame_range.h"
 #include "core/camera.h"
-#include "core/provenance.h"
 #include "core/skeleton.h"
+#include "core/source.h"
 #include "live/page/page_wizard.h"
 
 namespace marey::live {

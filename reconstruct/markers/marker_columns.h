@@ -13,7 +13,7 @@
 
 #include "core/body.h"
 #include "core/marker_tracks.h"
-#include "core/provenance.h"
+#include "core/source.h"
 #include "reconstruct/markers/marker_model.h"
 
 namespace marey::reconstruct {

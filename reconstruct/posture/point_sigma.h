@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "core/humanoid.h"
-#include "core/provenance.h"
+#include "core/source.h"
 
 namespace marey::reconstruct {
 

@@ -11,7 +11,7 @@
 #include "recordings/base/motion_limits.h"
 #include "recordings/gltf/gltf_model.h"
 #include "recordings/motion/bake_root_motion.h"
-#include "recordings/takes/meant_rate.h"
+#include "recordings/takes/nominal_rate.h"
 
 namespace marey::recordings {
 namespace {
@@ -137,7 +137,7 @@ double rate_of(const std::vector<Track>& tracks) {
   const double hz = 1.0 / step;
   // Times are floats, so the step is rounded.
   if (hz < kMinKeysHz || hz > 1.001 * kMaxRateHz) return kBlendedKeysHz;
-  return std::min(meant_rate(hz, 2e-7), kMaxRateHz);
+  return std::min(nominal_rate(hz, 2e-7), kMaxRateHz);
 }
 
 void apply(const Track& track, double time_s, NodePose& pose) {

@@ -21,7 +21,7 @@
 #include "recordings/body/floor_height.h"
 #include "recordings/motion/bake_root_motion.h"
 #include "recordings/motion/bvh.h"
-#include "recordings/takes/meant_rate.h"
+#include "recordings/takes/nominal_rate.h"
 
 namespace marey::recordings {
 namespace {
@@ -353,7 +353,7 @@ BvhMotion motion_of(BvhFile file, double unit_m) {
   BvhMotion result;
   to_metres(file.skeleton, unit_m);
   result.motion.skeleton = std::move(file.skeleton);
-  result.motion.rate = FrameRate{meant_rate(1.0 / file.frame_time_s, 1e-9)};
+  result.motion.rate = FrameRate{nominal_rate(1.0 / file.frame_time_s, 1e-9)};
   const auto& joints = result.motion.skeleton.joints;
   std::vector<RigidTransform> local(joints.size());
   const std::size_t count =

@@ -12,7 +12,7 @@
 
 #include "core/base/result.h"
 #include "core/motion.h"
-#include "core/provenance.h"
+#include "core/source.h"
 #include "core/transform.h"
 
 namespace marey::recordings {

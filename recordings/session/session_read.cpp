@@ -13,12 +13,12 @@
 #include "recordings/base/atomic_file.h"
 #include "recordings/base/toml_reader.h"
 #include "recordings/base/word_text.h"
+#include "recordings/session/find_trial_conflict.h"
 #include "recordings/session/session.h"
 #include "recordings/session/session_calibration.h"
 #include "recordings/session/session_device.h"
 #include "recordings/session/session_family.h"
 #include "recordings/session/session_target.h"
-#include "recordings/session/trial_rules.h"
 
 namespace marey::recordings {
 namespace fs = std::filesystem;
@@ -228,7 +228,7 @@ void SessionReader::read_cameras() {
 void SessionReader::read_trials() {
   for (TomlReader& reader : root_.tables("trial")) {
     Trial trial = read_trial(reader);
-    const auto mistake = find_conflict(trial, session_);
+    const auto mistake = find_trial_conflict(trial, session_);
     if (mistake && reader.ok()) reader.fail(mistake->key, mistake->cause, mistake->next);
     session_.trials.push_back(std::move(trial));
   }

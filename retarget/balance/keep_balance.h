@@ -16,7 +16,7 @@
 #include "retarget/body/normalized_skeleton.h"
 #include "retarget/contacts/detect_contacts.h"
 #include "retarget/contacts/support_frame.h"
-#include "retarget/feet/ground.h"
+#include "retarget/feet/adapt_to_ground.h"
 
 namespace marey::retarget {
 

@@ -132,7 +132,7 @@ struct PlaceOnPart {
 /// (NATICK/TR-15/007), means of women and men to a centimetre, over the segments of
 /// average_proportions(). Cross sections are assumed to be round; a hand's radius lies
 /// between half its thickness and half its breadth. A skeleton does not contain the
-/// actual thickness; a mesh does (retarget/body/fit_volume.h). Parts whose bones the
+/// actual thickness; a mesh does (retarget/body/volume_of_skin.h). Parts whose bones the
 /// skeleton lacks are absent.
 /// Precondition: `map` was made from `skeleton`.
 [[nodiscard]] BodyVolume average_volume(const Skeleton& skeleton, const BodyMap& map);

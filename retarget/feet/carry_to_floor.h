@@ -6,7 +6,7 @@
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
 #include "retarget/contacts/detect_contacts.h"
-#include "retarget/feet/ground.h"
+#include "retarget/feet/adapt_to_ground.h"
 
 namespace marey::retarget {
 

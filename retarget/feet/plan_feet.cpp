@@ -8,8 +8,8 @@
 #include "core/base/assert.h"
 #include "core/pose.h"
 #include "retarget/body/rotation_from_t_pose.h"
-#include "retarget/feet/foot_plan.h"
 #include "retarget/feet/leg_placement.h"
+#include "retarget/feet/plan_foot.h"
 
 namespace marey::retarget {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
 #include "retarget/contacts/detect_contacts.h"
-#include "retarget/feet/floor_feet.h"
+#include "retarget/feet/stand_feet_on.h"
 
 namespace marey::retarget {
 

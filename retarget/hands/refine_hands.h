@@ -17,7 +17,7 @@ namespace marey::retarget {
 struct RefineHandsOptions {
   bool keep_touches = true;
   bool resolve_arm_collisions = true;
-  /// Volume from a skin if there is one (retarget/body/fit_volume.h); nullopt:
+  /// Volume from a skin if there is one (retarget/body/volume_of_skin.h); nullopt:
   /// average_volume() of the skeleton, the best estimate for a captured person.
   std::optional<BodyVolume> source_volume;
   std::optional<BodyVolume> avatar_volume;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/assert.h"
-#include "retarget/feet/ground.h"
+#include "retarget/feet/adapt_to_ground.h"
 #include "retarget/feet/leg_placement.h"
 #include "retarget/feet/live_foot.h"
 #include "retarget/feet/live_skin.h"

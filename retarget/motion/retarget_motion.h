@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/motion.h"
 #include "core/base/result.h"
+#include "core/motion.h"
 #include "retarget/balance/keep_balance.h"
 #include "retarget/body/find_soles.h"
 #include "retarget/body/normalized_skeleton.h"
 #include "retarget/contacts/detect_contacts.h"
-#include "retarget/feet/ground.h"
+#include "retarget/feet/adapt_to_ground.h"
 #include "retarget/feet/lift_skin.h"
 #include "retarget/hands/refine_hands.h"
 #include "retarget/motion/compare_postures.h"

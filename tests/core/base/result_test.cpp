@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/provenance.h"
+#include "core/source.h"
 
 namespace marey {
 namespace {

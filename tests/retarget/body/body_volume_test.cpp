@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "retarget/body/fit_volume.h"
+#include "retarget/body/volume_of_skin.h"
 #include "tests/retarget/hand_scenes.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/bodies/random_bodies.h"

@@ -18,7 +18,7 @@
 #include "core/transform.h"
 #include "retarget/bones/body_frame.h"
 #include "retarget/bones/identify_bones.h"
-#include "retarget/bones/neutral_pose.h"
+#include "retarget/bones/set_rest_pose.h"
 #include "retarget/bones/up_of_motion.h"
 #include "retarget/motion/retarget_motion.h"
 #include "tests/retarget/mapped.h"
@@ -256,7 +256,7 @@ TEST(RestAsPose, TakesAFrameAndFacesAlongAnAxis) {
   const Rig rig = make_rig();
   Motion motion = walk(rig, 0.0, 0.5, 1.1);
   const Pose pose = motion.poses[7];
-  rest_as_pose(motion, rig.found, {0, 1, 0}, pose);
+  set_rest_pose(motion, rig.found, {0, 1, 0}, pose);
   ASSERT_TRUE(stands_at_rest(motion.skeleton, rig.found));
   const auto joints = testing::marked_joints(rig.t_pose);
   const glm::dvec3 front =
@@ -276,15 +276,15 @@ TEST(RestAsOther, DeclinesAnotherSkeletonNamingTheJoint) {
   const Rig rig = make_rig();
   Motion motion = walk(rig, 0.0, 0.5, 0.0);
   Skeleton other = rig.t_pose;
-  EXPECT_TRUE(rest_as_other(other, rig.found, {0, 1, 0}, motion));
+  EXPECT_TRUE(copy_rest_pose(other, rig.found, {0, 1, 0}, motion));
   EXPECT_TRUE(stands_at_rest(motion.skeleton, rig.found));
   other.joints[index(B::kLeftLowerLeg)].name = "knee";
-  const Status no = rest_as_other(other, rig.found, {0, 1, 0}, motion);
+  const Status no = copy_rest_pose(other, rig.found, {0, 1, 0}, motion);
   ASSERT_FALSE(no);
   EXPECT_EQ(no.error().cause,
             "it has no joint 'leftLowerLeg', which is the motion's leftLowerLeg");
   const Skeleton turned = make_humanoid(average_proportions(1.7));
-  const Status also = rest_as_other(turned, rig.found, {0, 1, 0}, motion);
+  const Status also = copy_rest_pose(turned, rig.found, {0, 1, 0}, motion);
   ASSERT_FALSE(also);
   EXPECT_NE(also.error().cause.find("has another direction in its joint's axes"),
             std::string::npos);

@@ -242,7 +242,7 @@ TEST(CarryToFloor, FeetTurnNoFurtherThanAnklesBend) {
   const glm::dvec3 up =
       feet[0].places[static_cast<std::size_t>(stance.frames.first)].foot *
       glm::dvec3(0, 1, 0);
-  EXPECT_NEAR(std::acos(up.y), FloorFeetOptions{}.max_foot_pitch_rad, 1e-6);
+  EXPECT_NEAR(std::acos(up.y), StandFeetOptions{}.max_foot_pitch_rad, 1e-6);
 }
 
 // A belt that runs sideways and rises while the walk is on it: the feet go with it, and

@@ -12,7 +12,7 @@
 
 #include "core/base/degrees.h"
 #include "retarget/base/smooth_step.h"
-#include "retarget/feet/foot_plan.h"
+#include "retarget/feet/plan_foot.h"
 
 namespace marey::retarget {
 namespace {

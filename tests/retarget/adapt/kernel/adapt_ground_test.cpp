@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "retarget/feet/foot_plan.h"
-#include "retarget/feet/ground.h"
+#include "retarget/feet/adapt_to_ground.h"
+#include "retarget/feet/plan_foot.h"
 #include "tests/support/bodies/random_bodies.h"
 
 namespace marey::retarget {

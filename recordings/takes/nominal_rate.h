@@ -10,7 +10,7 @@ namespace marey::recordings {
 /// within 1e-4 (relative), which is the precision of six digits; else the nearest
 /// thousandth or 1001st of a whole thousand (30000 / 1001) within `exact` of `hz`,
 /// relatively; else `hz` itself. Precondition: hz > 0.
-[[nodiscard]] inline double meant_rate(double hz, double exact) {
+[[nodiscard]] inline double nominal_rate(double hz, double exact) {
   const double whole = std::round(hz);
   if (whole > 0.0 && std::abs(hz - whole) < 1e-4 * hz) return whole;
   const double thousandths = std::round(1000.0 * hz) / 1000.0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "live/vmc/received_motion.h"
+#include "live/vmc/motion_resampler.h"
 
 #include <cmath>
 

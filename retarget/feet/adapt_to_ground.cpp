@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/feet/ground.h"
+#include "retarget/feet/adapt_to_ground.h"
 
 #include <algorithm>
 #include <array>
@@ -51,7 +51,7 @@ std::array<LegPath, 2> reference_legs(const Skeleton& body,
 void plan(const BodyMap& map,
           const Contacts& contacts,
           FrameRate rate,
-          const FootPlanOptions& options,
+          const PlanFootOptions& options,
           std::array<LegPath, 2>& legs) {
   for (std::size_t side = 0; side < 2; ++side) {
     LegPath& leg = legs[side];
@@ -181,7 +181,7 @@ std::array<std::vector<FootPlace>, 2> plan_level_feet(
     const Contacts& contacts,
     FrameRate rate,
     std::span<const NormalizedPose> poses,
-    const FootPlanOptions& options) {
+    const PlanFootOptions& options) {
   std::array<LegPath, 2> legs = reference_legs(body, map, poses);
   plan(map, contacts, rate, options, legs);
   return {std::move(legs[0].foot), std::move(legs[1].foot)};

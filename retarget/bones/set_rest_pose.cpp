@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/bones/neutral_pose.h"
+#include "retarget/bones/set_rest_pose.h"
 
 #include <cmath>
 #include <string>
@@ -35,10 +35,10 @@ glm::dquat facing(const BodyPlaces& p, const glm::dvec3& up) {
 
 }  // namespace
 
-void rest_as_pose(Motion& motion,
-                  const FoundBones& found,
-                  const glm::dvec3& up,
-                  const Pose& pose) {
+void set_rest_pose(Motion& motion,
+                   const FoundBones& found,
+                   const glm::dvec3& up,
+                   const Pose& pose) {
   Skeleton& skeleton = motion.skeleton;
   const BodyPlaces p = places_in(found, world_from_joints(skeleton, pose));
   const glm::dquat turn = facing(p, up);
@@ -51,10 +51,10 @@ void rest_as_pose(Motion& motion,
   root.translation = turn * (pose.root_in_world - level);
 }
 
-Status rest_as_other(const Skeleton& other,
-                     const FoundBones& found,
-                     const glm::dvec3& up,
-                     Motion& motion) {
+Status copy_rest_pose(const Skeleton& other,
+                      const FoundBones& found,
+                      const glm::dvec3& up,
+                      Motion& motion) {
   constexpr double kAlike = 0.94;  // Cosine of 20 degrees.
   Skeleton& skeleton = motion.skeleton;
   for (const B bone : human_bones()) {
@@ -82,7 +82,7 @@ Status rest_as_other(const Skeleton& other,
     if (there)
       joint.parent_from_joint.rotation = other[*there].parent_from_joint.rotation;
   }
-  rest_as_pose(motion, found, up, rest_pose(skeleton));
+  set_rest_pose(motion, found, up, rest_pose(skeleton));
   return Done{};
 }
 

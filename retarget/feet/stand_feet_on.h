@@ -10,7 +10,7 @@
 #include "core/floor.h"
 #include "retarget/body/body_map.h"
 #include "retarget/contacts/detect_contacts.h"
-#include "retarget/feet/foot_plan.h"
+#include "retarget/feet/plan_foot.h"
 
 namespace marey::retarget {
 
@@ -28,7 +28,7 @@ struct FloorFoot {
   std::vector<FloorStance> stances;  ///< In the order of the contacts' stances.
 };
 
-struct FloorFeetOptions {
+struct StandFeetOptions {
   /// Maximum rotation of a foot with the floor: about as far as a standing ankle bends.
   /// On steeper ground only the foot's deciding point (ankle or ball) is in contact.
   /// [rad]
@@ -65,7 +65,7 @@ struct FloorFeetOptions {
     const BodyMap& map,
     FrameRate rate,
     int first_frame,
-    const FloorFeetOptions& options = {});
+    const StandFeetOptions& options = {});
 
 /// Clearance of a lifted swinging foot above an edge, in leg lengths: room for the toes
 /// in front of the ball.

@@ -21,7 +21,7 @@ struct TrialConflict {
 /// motion; no two trials with exactly the same frames of a video (ranges may overlap); no
 /// video of one camera used for another; a floor trial cut out of the calibration's own
 /// videos gives its frame range.
-[[nodiscard]] std::optional<TrialConflict> find_conflict(const Trial& trial,
-                                                         const Session& session);
+[[nodiscard]] std::optional<TrialConflict> find_trial_conflict(const Trial& trial,
+                                                               const Session& session);
 
 }  // namespace marey::recordings

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/feet/floor_feet.h"
+#include "retarget/feet/stand_feet_on.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ struct FloorFeetTask {
   const BodyMap& map;
   FrameRate rate;
   int first_frame = 0;
-  const FloorFeetOptions& options;
+  const StandFeetOptions& options;
 
   [[nodiscard]] std::size_t count() const { return flat[0].size(); }
   [[nodiscard]] double time_s(int frame) const {
@@ -236,7 +236,7 @@ std::array<FloorFoot, 2> stand_feet_on(const Floor& floor,
                                        const BodyMap& map,
                                        FrameRate rate,
                                        int first_frame,
-                                       const FloorFeetOptions& options) {
+                                       const StandFeetOptions& options) {
   MAREY_ASSERT(rate.hz > 0.0 && flat[0].size() == flat[1].size());
   MAREY_ASSERT(static_cast<int>(flat[0].size()) == contacts.frame_count);
   const FloorFeetTask task{floor, flat, contacts, map, rate, first_frame, options};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/session/trial_rules.h"
+#include "recordings/session/find_trial_conflict.h"
 
 #include <algorithm>
 #include <string>
@@ -79,7 +79,8 @@ std::optional<TrialConflict> mistake_in_slow_motion(const Trial& trial) {
 
 }  // namespace
 
-std::optional<TrialConflict> find_conflict(const Trial& trial, const Session& session) {
+std::optional<TrialConflict> find_trial_conflict(const Trial& trial,
+                                                 const Session& session) {
   if (auto mistake = mistake_in_slow_motion(trial)) return mistake;
   if (trial.kind == TrialKind::kMotion) return mistake_in_videos(trial, session);
   if (const Trial* twin = session.find(trial.kind)) {

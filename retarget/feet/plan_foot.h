@@ -12,7 +12,7 @@
 
 namespace marey::retarget {
 
-struct FootPlanOptions {
+struct PlanFootOptions {
   /// Time over which the speed of a contact's displacement fades out after it, and in
   /// before it. Longer is smoother, and follows noise further. [s]
   double blend_s = 0.28;
@@ -37,6 +37,6 @@ struct FootPlanOptions {
                                                const FootMap& foot,
                                                double leg_length_m,
                                                FrameRate rate,
-                                               const FootPlanOptions& options = {});
+                                               const PlanFootOptions& options = {});
 
 }  // namespace marey::retarget

@@ -4,8 +4,8 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/motion.h"
 #include "core/base/result.h"
+#include "core/motion.h"
 #include "retarget/bones/found_bones.h"
 
 namespace marey::retarget {
@@ -14,17 +14,17 @@ namespace marey::retarget {
 /// world) to face along an axis and moved level above the origin. The motion's world
 /// positions stay the same.
 /// Precondition: the pose has as many rotations as the skeleton joints.
-void rest_as_pose(Motion& motion,
-                  const FoundBones& found,
-                  const glm::dvec3& up,
-                  const Pose& pose);
+void set_rest_pose(Motion& motion,
+                   const FoundBones& found,
+                   const glm::dvec3& up,
+                   const Pose& pose);
 
 /// Copies the rest rotations of another skeleton to the joints of the same names. Errors
 /// (bad input), with the joint: a human bone's joint is not in the other skeleton, or its
 /// bone lies in another direction of the joint's frame.
-[[nodiscard]] Status rest_as_other(const Skeleton& other,
-                                   const FoundBones& found,
-                                   const glm::dvec3& up,
-                                   Motion& motion);
+[[nodiscard]] Status copy_rest_pose(const Skeleton& other,
+                                    const FoundBones& found,
+                                    const glm::dvec3& up,
+                                    Motion& motion);
 
 }  // namespace marey::retarget

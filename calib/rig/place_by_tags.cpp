@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/rig/place_tags.h"
+#include "calib/rig/place_by_tags.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "live/vmc/received_motion.h"
+#include "live/vmc/motion_resampler.h"
 
 #include <cmath>
 
@@ -30,7 +30,7 @@ void MotionResampler::add(double time_s, const Pose& pose) {
 }
 
 std::optional<Motion> MotionResampler::at_rate(const Skeleton& skeleton,
-                                           FrameRate rate) const {
+                                               FrameRate rate) const {
   MAREY_ASSERT(rate.hz > 0.0);
   if (poses_.size() < 2) return std::nullopt;
   Motion motion{skeleton, rate, 0, {}};

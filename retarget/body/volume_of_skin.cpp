@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/body/fit_volume.h"
+#include "retarget/body/volume_of_skin.h"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/base/assert.h"
+#include "core/base/quantile.h"
 #include "core/humanoid.h"
 #include "core/pose.h"
-#include "core/base/quantile.h"
 #include "retarget/body/support_points.h"
 
 namespace marey::retarget {

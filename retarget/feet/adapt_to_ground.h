@@ -6,17 +6,17 @@
 #include <span>
 #include <vector>
 
-#include "core/skeleton.h"
 #include "core/base/time.h"
+#include "core/skeleton.h"
 #include "retarget/body/body_map.h"
 #include "retarget/body/normalized_skeleton.h"
 #include "retarget/contacts/detect_contacts.h"
-#include "retarget/feet/foot_plan.h"
+#include "retarget/feet/plan_foot.h"
 
 namespace marey::retarget {
 
 struct GroundOptions {
-  FootPlanOptions feet;
+  PlanFootOptions feet;
   /// The root starts to sink this long before a leg would be too short, and rises as long
   /// after. [s]
   double anticipation_s = 0.2;
@@ -81,7 +81,7 @@ GroundReport adapt_to_ground(const Skeleton& body,
     const Contacts& contacts,
     FrameRate rate,
     std::span<const NormalizedPose> poses,
-    const FootPlanOptions& options = {});
+    const PlanFootOptions& options = {});
 
 /// Adapts a motion as adapt_to_ground() does, to other planned feet, above any floor: the
 /// root sinks where a bearing leg would not reach; legs, feet and toes follow. `feet` are
