@@ -22,10 +22,10 @@ namespace marey::calib {
                                    const RigGuess& guess,
                                    const CalibrationTarget& board);
 
-/// Builds a model in which cameras have their own clocks. The board moves smoothly
-/// between knots, which are half a frame (of the fastest camera, at least 1/60 s) to a
-/// frame apart. A new motion begins after a jump or a period without views. `offsets_s`
-/// per camera, as in SolvedClock.
+/// Builds a model in which cameras have their own clocks. The board's path is a cubic
+/// B-spline of poses (calib/model/spline_pose.h). Its control poses, the knots, are one
+/// frame of the fastest camera apart, but at least 1/60 s. A new path begins after a jump
+/// or a period without views. `offsets_s` per camera, as in SolvedClock.
 [[nodiscard]] RigModel moving_model(std::span<const BoardView> views,
                                     std::span<const Intrinsics> intrinsics,
                                     const RigGuess& guess,
@@ -44,7 +44,10 @@ struct TimedPose {
 [[nodiscard]] std::vector<double> parts_of_motion(std::span<const TimedPose> poses,
                                                   double spacing_s);
 
-/// Fits knots, by number, to nearby poses. Preconditions: ascending times, not empty.
+/// Returns the initial knots of a path: knot k is the pose at k * spacing_s, interpolated
+/// between the neighbouring poses, and constant before the first and after the last. The
+/// numbers extend beyond the poses as far as the spline needs them. Preconditions:
+/// ascending times, not empty; spacing above 0.
 [[nodiscard]] std::map<int, RigidTransform> knots_through(
     std::span<const TimedPose> poses, double spacing_s);
 

@@ -21,12 +21,13 @@
 
 namespace marey::calib {
 
-/// A tag on a rigid body; or a board of known layout, as one piece of size 1.
+/// A tag on a rigid target whose layout is not known: a wand, or static tags. Boards have
+/// a known layout and no pieces.
 struct Piece {
   TagId id{};
   RigidTransform target_from_piece;
-  double size_m = 1.0;  ///< Edge of its black square.
-  bool is_size_known = true;
+  double size_m = 1.0;        ///< Edge of its black square. [m]
+  bool is_size_known = true;  ///< False: `size_m` is estimated.
   bool is_placed = true;  ///< False until the pose on the target is estimated.
 };
 

@@ -20,7 +20,7 @@
 
 namespace marey::capture {
 
-/// A range of frames of a video.
+/// A range of frames of a recording.
 struct VideoPart {
   std::filesystem::path path;       ///< A video or a folder of images.
   int first_frame = 0;              ///< Frames before it are skipped.
@@ -29,10 +29,12 @@ struct VideoPart {
 
 struct VideoFeedOptions {
   std::string name;            ///< Name of the camera in messages.
-  std::filesystem::path path;  ///< These three are as in VideoPart.
-  int first_frame = 0;
-  std::optional<int> last_frame{};
-  std::vector<VideoPart> then{};  ///< Following recordings, with images of the same size.
+  std::filesystem::path path;  ///< First recording: a video or a folder of images.
+  int first_frame = 0;         ///< Frames of it before this one are skipped.
+  std::optional<int>
+      last_frame{};  ///< The last frame of it, inclusive; nullopt: to the end.
+  /// Recordings that are played after it, with images of the same size.
+  std::vector<VideoPart> then{};
   std::optional<FrameRate> rate{};  ///< nullopt: the rate of the video.
   bool loop = false;                ///< Restart from the first frame after the last.
   int buffers = 4;                  ///< Capacity of the frame queue, like a driver's.
