@@ -20,7 +20,7 @@ using recordings::TrialVideo;
 namespace {
 
 /// Returns the largest distance of a frame from an even rate. [s]
-double furthest_s(const std::vector<Timestamp>& times, double hz, double first_s) {
+double max_offset_s(const std::vector<Timestamp>& times, double hz, double first_s) {
   double worst_s = 0.0;
   for (std::size_t i = 0; i < times.size(); ++i) {
     const double even_s = first_s + static_cast<double>(i) / hz;
@@ -36,7 +36,7 @@ std::optional<FrameRate> even_rate(const std::vector<Timestamp>& times) {
   if (times.size() < 3) return std::nullopt;
   const double length_s = seconds(times.back() - times.front());
   const double hz = static_cast<double>(times.size() - 1) / length_s;
-  if (!(length_s > 0.0) || furthest_s(times, hz, 0.0) * hz > kEven) return std::nullopt;
+  if (!(length_s > 0.0) || max_offset_s(times, hz, 0.0) * hz > kEven) return std::nullopt;
   return FrameRate{hz};
 }
 
@@ -129,7 +129,7 @@ std::optional<UnevenVideo> find_uneven_video(const TrialVideo& video, FrameRate 
   // Rounding of a container stays below this limit; larger deviations come from the
   // camera.
   constexpr double kSteady = 0.25;
-  const double worst_s = furthest_s(*times, rate.hz, 0.0);
+  const double worst_s = max_offset_s(*times, rate.hz, 0.0);
   if (worst_s * rate.hz < kSteady) return std::nullopt;
   auto other = even_rate(*times);
   constexpr double kSameRate = 2e-3;

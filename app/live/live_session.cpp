@@ -232,11 +232,11 @@ Status find_body(const Session& session,
 }
 
 FrameRate rate_of_feeds(const OpenedLive& live) {
-  double fastest_hz = 0.0;
+  double max_hz = 0.0;
   for (const auto& feed : live.feeds) {
-    fastest_hz = std::max(fastest_hz, feed->settings().rate.hz);
+    max_hz = std::max(max_hz, feed->settings().rate.hz);
   }
-  return {fastest_hz > 0.0 ? fastest_hz : 30.0};
+  return {max_hz > 0.0 ? max_hz : 30.0};
 }
 
 }  // namespace

@@ -94,12 +94,12 @@ void assess_foot(const std::string& name,
 
 void assess_posture(const std::string& name, AvatarVerdict& out) {
   const retarget::PostureFigures& posture = out.posture;
-  if (posture.source_fastest > kPoorSourceSpeed) {
+  if (posture.source_max_speed > kPoorSourceSpeed) {
     add(name + ", frame " + std::to_string(*posture.source_fastest_frame),
         text("the source motion moves its %s at %.0f body heights per second: a sample "
              "there is wrong, and it affects the frames around it",
              std::string(marey::name(posture.source_fastest_bone)).c_str(),
-             posture.source_fastest),
+             posture.source_max_speed),
         "repair or cut that frame in the motion, then retarget it again",
         true,
         out);
@@ -122,12 +122,13 @@ void assess_posture(const std::string& name, AvatarVerdict& out) {
     if (segment.bone != HumanBone::kNeck) continue;
     assess_direction(name, segment, kFarPosture_deg, kPoorPosture_deg, out);
   }
-  if (posture.fastest > kPoorSpeed && posture.fastest > 2.0 * posture.source_fastest) {
+  if (posture.max_speed > kPoorSpeed &&
+      posture.max_speed > 2.0 * posture.source_max_speed) {
     add(name + ", frame " + std::to_string(*posture.fastest_frame),
         text("%s moves at %.0f body heights per second, the source at most at %.0f",
              std::string(marey::name(posture.fastest_bone)).c_str(),
-             posture.fastest,
-             posture.source_fastest),
+             posture.max_speed,
+             posture.source_max_speed),
         "look at that frame with marey view; without --balance or with --no-hands a "
         "jump of the posture may go away",
         true,
@@ -288,7 +289,7 @@ Status assess_files(const Motion& made,
 }  // namespace
 
 double AvatarVerdict::penetration_mm(const retarget::RetargetReport& report) const {
-  return skin ? 1e3 * skin->depth_m : report.after.deepest_penetration_mm;
+  return skin ? 1e3 * skin->depth_m : report.after.max_penetration_mm;
 }
 
 Result<AvatarVerdict> assess_avatar(const std::string& name,
@@ -306,9 +307,9 @@ Result<AvatarVerdict> assess_avatar(const std::string& name,
     out.source_depth_m = std::max(out.source_depth_m, depth_m);
   }
   if (!skin.empty()) {
-    out.skin = retarget::deepest_skin(made.motion, skin);
+    out.skin = retarget::max_skin_depth(made.motion, skin);
     out.beyond_source =
-        retarget::deepest_skin(made.motion, skin, made.report.source_depth_m);
+        retarget::max_skin_depth(made.motion, skin, made.report.source_depth_m);
   }
   if (const Status ok = assess_files(made.motion, made.report.source_depth_m, files, out);
       !ok) {
@@ -316,7 +317,7 @@ Result<AvatarVerdict> assess_avatar(const std::string& name,
   }
   out.posture = retarget::compare_postures(source, *source_map, made.motion, *map);
   name_far_segments(made.report, out);
-  out.arms_in_body_mm = 1e3 * made.report.hands.arms.deepest_after_m;
+  out.arms_in_body_mm = 1e3 * made.report.hands.arms.max_depth_after_m;
   if (!skin.empty()) assess_feet(name, made.motion.skeleton, *map, skin, out);
   assess_source_feet(source, *source_map, out);
   if (grounded) assess_skin(name, out);

@@ -25,7 +25,7 @@ std::string row_of(const RetargetRun& run, const AvatarResult& avatar) {
          text_of("<td class=\"number\">%.1f mm</td>", 1e3 * report->kept.mean_off_m) +
          text_of("<td class=\"number\">%.1f mm</td>",
                  1e3 * report->kept.mean_off_before_m) +
-         text_of("<td class=\"number\">%.0f mm</td>", 1e3 * report->kept.furthest_m) +
+         text_of("<td class=\"number\">%.0f mm</td>", 1e3 * report->kept.max_shift_m) +
          "</tr>\n";
 }
 

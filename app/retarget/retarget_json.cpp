@@ -69,7 +69,7 @@ Json balance_json(const RetargetRun& run, const AvatarResult& avatar) {
   out["before_lost_frames"] = report->before.lost_frames;
   out["mean_off_before_mm"] = rounded(1e3 * report->kept.mean_off_before_m, 2);
   out["mean_off_mm"] = rounded(1e3 * report->kept.mean_off_m, 2);
-  out["root_moved_mm"] = rounded(1e3 * report->kept.furthest_m, 2);
+  out["root_moved_mm"] = rounded(1e3 * report->kept.max_shift_m, 2);
   return out;
 }
 
@@ -98,14 +98,15 @@ void add_verdict(const AvatarVerdict& verdict,
                 {"sustained_deg", rounded(glm::degrees(figures.sustained_rad), 2)},
                 {"sustained_frame", figures.sustained_frame.value_or(-1)}};
   };
-  out["posture"] = {{"legs", direction(posture.legs)},
-                    {"arms", direction(posture.arms)},
-                    {"trunk", direction(posture.trunk)},
-                    {"feet", direction(posture.feet)},
-                    {"exchanged_percent", rounded(100.0 * posture.exchanged_share, 2)},
-                    {"fastest_heights_per_s", rounded(posture.fastest, 3)},
-                    {"source_fastest_heights_per_s", rounded(posture.source_fastest, 3)},
-                    {"arms_in_body_mm", rounded(verdict.arms_in_body_mm, 2)}};
+  out["posture"] = {
+      {"legs", direction(posture.legs)},
+      {"arms", direction(posture.arms)},
+      {"trunk", direction(posture.trunk)},
+      {"feet", direction(posture.feet)},
+      {"exchanged_percent", rounded(100.0 * posture.exchanged_share, 2)},
+      {"fastest_heights_per_s", rounded(posture.max_speed, 3)},
+      {"source_fastest_heights_per_s", rounded(posture.source_max_speed, 3)},
+      {"arms_in_body_mm", rounded(verdict.arms_in_body_mm, 2)}};
   out["far_segments"] = Json::array();
   for (const FarSegment& far : verdict.far_segments) {
     Json one = direction(far.direction);

@@ -137,7 +137,7 @@ std::vector<CrowdColumn> crowd_columns(const std::vector<CrowdMember>& crowd,
       return make_side_by_side(crowd, goals, options, how);
     });
   };
-  const LaneWidth widest = retarget::widest_lanes();
+  const LaneWidth widest = retarget::max_lanes();
   for (const LaneWidth width :
        {LaneWidth::kOne, LaneWidth::kFour, LaneWidth::kEight, LaneWidth::kSixteen}) {
     if (width > widest) continue;

@@ -93,7 +93,7 @@ Status add_row(const CapturedClip& clip, const Body& body, ResultTable& table) {
                         static_cast<double>(report.after.lost_frames),
                         1e3 * report.kept.mean_off_before_m,
                         1e3 * report.kept.mean_off_m,
-                        100.0 * report.kept.furthest_m,
+                        100.0 * report.kept.max_shift_m,
                         before.contacts.mean_slide_cm_per_s,
                         after.contacts.mean_slide_cm_per_s,
                         before.contacts.worst_drift_mm,

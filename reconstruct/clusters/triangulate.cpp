@@ -17,7 +17,7 @@ std::optional<TriangulatedPoint> triangulate(std::span<const PointView> views,
   glm::dmat3 normal(0.0);
   glm::dvec3 right(0.0);
   glm::dvec3 first(0.0);
-  double widest_rad = 0.0;
+  double max_rad = 0.0;
   for (const PointView& view : views) {
     const auto ray = unproject(view.camera->intrinsics, view.pixel_px);
     if (!ray) return std::nullopt;
@@ -25,13 +25,12 @@ std::optional<TriangulatedPoint> triangulate(std::span<const PointView> views,
     const glm::dvec3 d =
         glm::normalize(world_from_camera.rotation * glm::dvec3(*ray, 1.0));
     if (&view == views.data()) first = d;
-    widest_rad =
-        std::max(widest_rad, std::acos(std::clamp(glm::dot(first, d), -1.0, 1.0)));
+    max_rad = std::max(max_rad, std::acos(std::clamp(glm::dot(first, d), -1.0, 1.0)));
     const glm::dmat3 across = glm::dmat3(1.0) - glm::outerProduct(d, d);
     normal += across;
     right += across * world_from_camera.translation;
   }
-  if (widest_rad < options.min_ray_angle_rad) return std::nullopt;
+  if (max_rad < options.min_ray_angle_rad) return std::nullopt;
   TriangulatedPoint point{glm::inverse(normal) * right, 0.0};
   double sum = 0.0;
   for (const PointView& view : views) {

@@ -146,10 +146,10 @@ std::vector<Flight> find_flights(const Motion& motion,
     flight.takeoff_s = takeoff / rate_hz;
     flight.landing_s = landing / rate_hz;
     const double start_m = height(y, takeoff);
-    const double highest_m =
+    const double max_m =
         *std::max_element(y.begin() + static_cast<std::ptrdiff_t>(in),
                           y.begin() + static_cast<std::ptrdiff_t>(out + 1));
-    flight.rise_m = std::max(0.0, highest_m - start_m);
+    flight.rise_m = std::max(0.0, max_m - start_m);
     flights.push_back(flight);
   }
   return flights;

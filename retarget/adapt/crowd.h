@@ -14,7 +14,7 @@
 namespace marey::retarget {
 
 struct CrowdOptions {
-  LaneWidth width = widest_lanes();
+  LaneWidth width = max_lanes();
   int threads = 1;
 };
 

@@ -24,7 +24,7 @@ bool has_lanes(LaneWidth width) {
   return width == LaneWidth::kOne;
 }
 
-LaneWidth widest_lanes() {
+LaneWidth max_lanes() {
   for (const LaneWidth width :
        {LaneWidth::kSixteen, LaneWidth::kEight, LaneWidth::kFour}) {
     if (has_lanes(width)) return width;

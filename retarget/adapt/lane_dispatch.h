@@ -19,7 +19,7 @@ enum class LaneWidth { kOne = 1, kFour = 4, kEight = 8, kSixteen = 16 };
 [[nodiscard]] bool has_lanes(LaneWidth width);
 
 /// Returns the largest width that this processor supports.
-[[nodiscard]] LaneWidth widest_lanes();
+[[nodiscard]] LaneWidth max_lanes();
 
 /// Creates the kernel of a width. Precondition: has_lanes(width). Not for use outside
 /// this library.

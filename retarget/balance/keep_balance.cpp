@@ -161,7 +161,7 @@ KeptBalance keep_balance(const BalanceReference& reference,
     for (std::size_t t = 0; t < poses.size(); ++t) moved[t] += added[t];
   }
   for (const glm::dvec2& by_m : moved) {
-    out.furthest_m = std::max(out.furthest_m, glm::length(limited(by_m, max_m)));
+    out.max_shift_m = std::max(out.max_shift_m, glm::length(limited(by_m, max_m)));
   }
   return out;
 }

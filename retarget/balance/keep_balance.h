@@ -40,7 +40,7 @@ struct BalanceOptions {
 /// Result of keeping balance.
 struct KeptBalance {
   GroundReport ground;
-  double furthest_m = 0.0;  ///< Maximum shift of the root.
+  double max_shift_m = 0.0;  ///< Maximum shift of the root.
   /// Mean horizontal distance of the centre of mass from its target over the frames with
   /// support, weighted by support: before and after.
   double mean_off_before_m = 0.0;

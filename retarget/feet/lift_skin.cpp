@@ -192,9 +192,9 @@ bool SkinLift::is_zero() const {
          wrist_m[0] < kNoLift_m && wrist_m[1] < kNoLift_m;
 }
 
-SkinDepth deepest_skin(const Motion& motion,
-                       const Skin& skin,
-                       std::span<const double> allowed_m) {
+SkinDepth max_skin_depth(const Motion& motion,
+                         const Skin& skin,
+                         std::span<const double> allowed_m) {
   MAREY_ASSERT(allowed_m.empty() || allowed_m.size() == motion.poses.size());
   SkinDepth deepest;
   SkinLows lows{};

@@ -44,9 +44,9 @@ struct LiftSkinReport {
 /// Computes the deepest skin of a motion below the floor Y = 0, exact. `allowed_m` is the
 /// allowed depth of the skin, one value per frame; empty: 0.
 /// Precondition: `skin` was made from the motion's skeleton.
-[[nodiscard]] SkinDepth deepest_skin(const Motion& motion,
-                                     const Skin& skin,
-                                     std::span<const double> allowed_m = {});
+[[nodiscard]] SkinDepth max_skin_depth(const Motion& motion,
+                                       const Skin& skin,
+                                       std::span<const double> allowed_m = {});
 
 /// Raises a body until its skin is above the floor Y = 0, in place.
 ///

@@ -154,14 +154,14 @@ double depth_m(const FloorFeetTask& task,
   const FootMap& foot = task.map.feet[side];
   const glm::dvec3 ball =
       place.ankle_in_world + place.foot * foot.ball_from_ankle_in_t_pose;
-  double deepest_m = 0.0;
+  double max_depth_m = 0.0;
   for (const auto& [p, rest_m] : {std::pair(place.ankle_in_world, foot.ankle_height_m),
                                   std::pair(ball, foot.ball_height_m)}) {
     const FloorSpot spot = floor_at(task.floor, xz_of(p), task.time_s(frame));
-    deepest_m =
-        std::max(deepest_m, spot.height_m + rest_m / spot.normal_in_world.y - p.y);
+    max_depth_m =
+        std::max(max_depth_m, spot.height_m + rest_m / spot.normal_in_world.y - p.y);
   }
-  return deepest_m;
+  return max_depth_m;
 }
 
 // Height of a swing's bump: 0 to 1 to 0 with continuous second derivative.

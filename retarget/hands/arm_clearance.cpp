@@ -155,7 +155,7 @@ ArmPenetration arm_penetration(const ArmOfBody& source,
                                     world_from_avatar,
                                     balls[i],
                                     slack_m);
-      out.deepest_m = std::max(out.deepest_m, push.depth_m);
+      out.max_depth_m = std::max(out.max_depth_m, push.depth_m);
       if (ball.bone == Bone::kUpper) take_greater(push.way / ball.at, out.elbow);
       if (ball.bone == Bone::kForearm && ball.at < 1.0) take_greater(push.way, out.elbow);
       if (ball.bone != Bone::kUpper && ball.at > 0.0) take_greater(push.way, out.wrist);

@@ -33,7 +33,7 @@ struct ArmOfBody {
 struct ArmPenetration {
   glm::dvec3 elbow{0.0};  ///< World, [m].
   glm::dvec3 wrist{0.0};
-  double deepest_m = 0.0;  ///< Depth beyond that of the source's arm in its own body.
+  double max_depth_m = 0.0;  ///< Depth beyond that of the source's arm in its own body.
   /// Rise of the wrist, and bend of the elbow, that put the hand above the floor. For a
   /// body without known skin: as far above as the source's hand. [m]
   double rise_m = 0.0;

@@ -145,7 +145,7 @@ struct LiveScene {
           {avatar.volume, avatar.world_from_joint, now[side_index(side)], avatar.floor_m},
           side,
           kArmSlack_m);
-      if (std::max(penetration.deepest_m, penetration.rise_m) <= kArmSlack_m) return;
+      if (std::max(penetration.max_depth_m, penetration.rise_m) <= kArmSlack_m) return;
       ArmShift by = shift_for(
           penetration, *avatar.map.limbs[side_index(side)], now[side_index(side)]);
       by.wrist_m.y += penetration.rise_m;

@@ -145,7 +145,7 @@ struct Missing {
   std::array<Arm, 2> arms;
   // Displacements common to both wrists, where hands are on each other. [m]
   VectorChannel common;
-  double deepest_m = 0.0;
+  double max_depth_m = 0.0;
   std::optional<int> worst_frame{};
   double sum_m = 0.0;  // Sum over frames and arms, to judge the effect of a pass.
 
@@ -166,11 +166,11 @@ Missing missing_of(const Clearing& clearing,
       const ArmShift& now = shifts[slot_of_side(side)][t];
       const ArmPenetration penetration = clearing.penetration(t, side, now);
       out.arms[slot_of_side(side)].rise.set(t, penetration.rise_m);
-      const double deepest_m = std::max(penetration.deepest_m, penetration.rise_m);
-      if (deepest_m <= 0.0) continue;
-      out.sum_m += deepest_m;
-      if (deepest_m > out.deepest_m) {
-        out.deepest_m = deepest_m;
+      const double max_depth_m = std::max(penetration.max_depth_m, penetration.rise_m);
+      if (max_depth_m <= 0.0) continue;
+      out.sum_m += max_depth_m;
+      if (max_depth_m > out.max_depth_m) {
+        out.max_depth_m = max_depth_m;
         out.worst_frame = static_cast<int>(t);
       }
       const ArmShift answer = clearing.answer(t, side, now, penetration);
@@ -270,17 +270,17 @@ ArmCollisionReport resolve_arm_collisions(const VolumeInMotion& source,
   double min_m = std::numeric_limits<double>::max();
   for (;; ++report.passes) {
     const Missing missing = missing_of(clearing, holds, world_from_axes, shifts);
-    if (report.passes == 0) report.deepest_before_m = missing.deepest_m;
+    if (report.passes == 0) report.max_depth_before_m = missing.max_depth_m;
     // Penetrations that held hands cause remain after any number of passes.
     const bool better = missing.sum_m < min_m;
     const bool goes_on = missing.sum_m < kWorthIt * min_m;
     if (better) {
       min_m = missing.sum_m;
       best = shifts;
-      report.deepest_after_m = missing.deepest_m;
+      report.max_depth_after_m = missing.max_depth_m;
       report.worst_frame = missing.worst_frame;
     }
-    const bool enough = missing.deepest_m <= options.slack_m + options.good_enough_m;
+    const bool enough = missing.max_depth_m <= options.slack_m + options.good_enough_m;
     if (enough || !goes_on || report.passes == options.max_passes) break;
     add_covered(clearing, holds, world_from_axes, missing, half, shifts);
   }
@@ -296,7 +296,7 @@ ArmCollisionReport resolve_arm_collisions(const VolumeInMotion& source,
     }
   }
   const Missing left = missing_of(clearing, holds, world_from_axes, shifts);
-  report.deepest_after_m = left.deepest_m;
+  report.max_depth_after_m = left.max_depth_m;
   report.worst_frame = left.worst_frame;
   lift_hands(clearing, half, options.slack_m, shifts);
   return report;

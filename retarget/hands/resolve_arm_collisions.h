@@ -25,8 +25,8 @@ struct ArmCollisionOptions {
 struct ArmCollisionReport {
   /// Maximum depth of arms in trunk and thighs, and of hands in the floor, before and
   /// after, beyond the source's, slack included. [m]
-  double deepest_before_m = 0.0;
-  double deepest_after_m = 0.0;
+  double max_depth_before_m = 0.0;
+  double max_depth_after_m = 0.0;
   std::optional<int> worst_frame{};  ///< Frame of the remaining maximum; nullopt: none.
   int passes = 0;
 };

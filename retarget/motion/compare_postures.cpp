@@ -249,10 +249,10 @@ PostureFigures compare_postures(const Motion& source,
   if (!source.poses.empty()) {
     out.exchanged_share = exchanged / static_cast<double>(source.poses.size());
   }
-  out.fastest = fastest.speed_m_per_s / head_height_m(made.skeleton, to);
+  out.max_speed = fastest.speed_m_per_s / head_height_m(made.skeleton, to);
   out.fastest_bone = fastest.bone;
   out.fastest_frame = fastest.frame;
-  out.source_fastest =
+  out.source_max_speed =
       source_fastest.speed_m_per_s / head_height_m(source.skeleton, from);
   out.source_fastest_bone = source_fastest.bone;
   out.source_fastest_frame = source_fastest.frame;

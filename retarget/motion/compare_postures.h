@@ -53,11 +53,11 @@ struct PostureFigures {
   /// are exchanged.
   double exchanged_share = 0.0;
   /// Speed of the fastest joint, in body heights (head over floor at rest) per second.
-  double fastest = 0.0;
+  double max_speed = 0.0;
   HumanBone fastest_bone{};
   std::optional<int> fastest_frame{};  ///< nullopt: no joint moves.
   /// The same for the source.
-  double source_fastest = 0.0;
+  double source_max_speed = 0.0;
   HumanBone source_fastest_bone{};
   std::optional<int> source_fastest_frame{};
 };

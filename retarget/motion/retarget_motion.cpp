@@ -85,8 +85,8 @@ void keep_all_wrists(const Skeleton& avatar,
 }
 
 // Returns the maximum depth of the ends of both soles below the floor. [m]
-double deepest_sole_m(const Motion& motion, const BodyMap& map) {
-  double deepest_m = 0.0;
+double max_sole_depth_m(const Motion& motion, const BodyMap& map) {
+  double max_depth_m = 0.0;
   std::vector<RigidTransform> world_from_joint(motion.skeleton.joints.size());
   for (const Pose& pose : motion.poses) {
     world_from_joints(motion.skeleton, pose, world_from_joint);
@@ -103,11 +103,11 @@ double deepest_sole_m(const Motion& motion, const BodyMap& map) {
           toes ? end_m(*toes, foot.tip_from_ball_in_t_pose)
                : end_m(ankle,
                        foot.ball_from_ankle_in_t_pose + foot.tip_from_ball_in_t_pose);
-      deepest_m =
-          std::max({deepest_m, -end_m(ankle, foot.heel_from_ankle_in_t_pose), -tip_m});
+      max_depth_m =
+          std::max({max_depth_m, -end_m(ankle, foot.heel_from_ankle_in_t_pose), -tip_m});
     }
   }
-  return deepest_m;
+  return max_depth_m;
 }
 
 }  // namespace
@@ -134,7 +134,7 @@ FootFigures measure_feet(const Motion& motion,
                          const Contacts& contacts) {
   MAREY_ASSERT(contacts.frame_count == static_cast<int>(motion.poses.size()));
   FootFigures figures;
-  figures.deepest_penetration_mm = 1e3 * deepest_sole_m(motion, map);
+  figures.max_penetration_mm = 1e3 * max_sole_depth_m(motion, map);
   Slide slide;
   for (std::size_t side = 0; side < 2; ++side) {
     const auto measure =
@@ -142,8 +142,8 @@ FootFigures measure_feet(const Motion& motion,
           const std::vector<glm::dvec3> path = path_of(motion, joint);
           add_slide(path, runs, slide);
           for (const glm::dvec3& p : path) {
-            figures.deepest_penetration_mm =
-                std::max(figures.deepest_penetration_mm, 1e3 * (height_m - p.y));
+            figures.max_penetration_mm =
+                std::max(figures.max_penetration_mm, 1e3 * (height_m - p.y));
           }
         };
     const FootMap& foot = map.feet[side];

@@ -79,7 +79,7 @@ struct FootFigures {
   double mean_slide_cm_per_s = 0.0;
   /// Maximum depth of an ankle or toe joint below its height when standing in the T-pose,
   /// or of an end of a sole below the floor. [mm]
-  double deepest_penetration_mm = 0.0;
+  double max_penetration_mm = 0.0;
 };
 
 /// Measures a motion's feet against the given contacts. Precondition: `map` was made from

@@ -58,7 +58,7 @@ Motion swinging_arms() {
 
 // Returns the largest depth of elbows and wrists in trunk and thighs, from the skin
 // alone. Upper arms are left out: on a wide body they begin within the chest. [m]
-double deepest_m(const Motion& motion, const retarget::BodyVolume& volume) {
+double max_depth_m(const Motion& motion, const retarget::BodyVolume& volume) {
   double deepest = 0.0;
   for (const Pose& pose : motion.poses) {
     const auto world = world_from_joints(motion.skeleton, pose);
@@ -86,8 +86,8 @@ TEST(RefinedAvatar, KeepsArmsOutOfTheBellyThatItsSkinHas) {
     const auto bare = retarget::retarget_motion(motion, body->skeleton());
     ASSERT_TRUE(bare);
     // Joints lie within arms: on the skin's surface their arm's radius is outside.
-    const double before_m = deepest_m(bare->motion, *body->volume);
-    const double after_m = deepest_m(made->retargeted.motion, *body->volume);
+    const double before_m = max_depth_m(bare->motion, *body->volume);
+    const double after_m = max_depth_m(made->retargeted.motion, *body->volume);
     if (girth > 2.0) {
       EXPECT_GT(before_m, 0.03) << "the claim is empty";
     }

@@ -278,7 +278,7 @@ std::vector<LaneWidth> lane_widths() {
   std::vector<LaneWidth> out;
   for (const LaneWidth width :
        {LaneWidth::kOne, LaneWidth::kFour, LaneWidth::kEight, LaneWidth::kSixteen}) {
-    if (width <= widest_lanes()) out.push_back(width);
+    if (width <= max_lanes()) out.push_back(width);
   }
   return out;
 }

@@ -71,10 +71,10 @@ TEST(LiftSkin, RaisesOnlySkinInTheFloor) {
   Motion motion = sinking(body, 0.8);
   const Motion before = motion;
   const LiftSkinReport report = lift_skin(skin, map, no_contacts(motion), {}, {}, motion);
-  EXPECT_NEAR(report.before.depth_m, deepest_skin(before, skin).depth_m, 1e-12);
+  EXPECT_NEAR(report.before.depth_m, max_skin_depth(before, skin).depth_m, 1e-12);
   EXPECT_GT(report.before.depth_m, 0.7);
-  EXPECT_LE(deepest_skin(motion, skin).depth_m, 0.001);
-  EXPECT_EQ(deepest_skin(motion, skin).depth_m, report.after.depth_m);
+  EXPECT_LE(max_skin_depth(motion, skin).depth_m, 0.001);
+  EXPECT_EQ(max_skin_depth(motion, skin).depth_m, report.after.depth_m);
   // A foot alone rises first; frames well above the floor keep their bytes.
   EXPECT_EQ(motion.poses[2].root_in_world, before.poses[2].root_in_world);
   EXPECT_GT(motion.poses[30].root_in_world.y, before.poses[30].root_in_world.y);
@@ -88,10 +88,10 @@ TEST(LiftSkin, LeavesAllowedDepths) {
   Motion motion = sinking(body, 0.8);
   const std::vector<double> allowed_m(motion.poses.size(), 0.2);
   lift_skin(skin, map, no_contacts(motion), allowed_m, {}, motion);
-  const double left_m = deepest_skin(motion, skin).depth_m;
+  const double left_m = max_skin_depth(motion, skin).depth_m;
   EXPECT_LE(left_m, 0.201);
   EXPECT_GT(left_m, 0.15);
-  EXPECT_LE(deepest_skin(motion, skin, allowed_m).depth_m, 0.001);
+  EXPECT_LE(max_skin_depth(motion, skin, allowed_m).depth_m, 0.001);
 }
 
 // Feet are moved by their legs; they keep their orientation.
@@ -124,11 +124,11 @@ TEST(LiftSkin, IsPartOfRetargetingWholeAndLive) {
   RetargetOptions options;
   const auto bare = retarget_motion(walk, body, options);
   ASSERT_TRUE(bare);
-  EXPECT_GT(deepest_skin(bare->motion, skin).depth_m, 0.01);
+  EXPECT_GT(max_skin_depth(bare->motion, skin).depth_m, 0.01);
   options.skin = &skin;
   const auto out = retarget_motion(walk, body, options);
   ASSERT_TRUE(out);
-  EXPECT_LE(deepest_skin(out->motion, skin).depth_m, 0.001);
+  EXPECT_LE(max_skin_depth(out->motion, skin).depth_m, 0.001);
 
   LiveRetargetOptions live_options;
   live_options.skin = skin;
@@ -144,7 +144,7 @@ TEST(LiftSkin, IsPartOfRetargetingWholeAndLive) {
   }
   // The scratch posture of the first lift.
   EXPECT_LE(testing::allocations() - before, 1);
-  EXPECT_LE(deepest_skin(motion, skin).depth_m, 0.002);
+  EXPECT_LE(max_skin_depth(motion, skin).depth_m, 0.002);
 }
 
 }  // namespace

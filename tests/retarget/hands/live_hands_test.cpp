@@ -84,7 +84,7 @@ TEST(LiveHands, TouchWhereTheSourceTouches) {
 
 // Returns the depth of forearms in the trunk, skin in skin; while held, or over the
 // motion. [m]
-double deepest_m(const Motion& motion, const BodyVolume& volume, bool held = false) {
+double max_depth_m(const Motion& motion, const BodyVolume& volume, bool held = false) {
   double deepest = 0.0;
   for (std::size_t t = 0; t < motion.poses.size(); ++t) {
     if (held && (t < kHeldFirst + 10 || t > kHeldLast)) continue;
@@ -113,10 +113,11 @@ TEST(LiveHands, KeepArmsOutOfABiggerBelly) {
     const Motion source = hands_go_to(places);
     const Motion with = dressed(source, body, options);
     const Motion without = dressed(source, body, std::nullopt);
-    const double own_m = deepest_m(source, average_volume(body, mapped(body)), true);
-    EXPECT_LT(deepest_m(with, *options.avatar_volume, true), own_m + 0.005);
-    EXPECT_LT(deepest_m(with, *options.avatar_volume), 0.03);
-    EXPECT_GT(deepest_m(without, *options.avatar_volume), 0.028) << "the claim is empty";
+    const double own_m = max_depth_m(source, average_volume(body, mapped(body)), true);
+    EXPECT_LT(max_depth_m(with, *options.avatar_volume, true), own_m + 0.005);
+    EXPECT_LT(max_depth_m(with, *options.avatar_volume), 0.03);
+    EXPECT_GT(max_depth_m(without, *options.avatar_volume), 0.028)
+        << "the claim is empty";
   }
 }
 

@@ -255,7 +255,7 @@ TEST(ResolveArmCollisions, PutsHangingArmsOutOfABiggerBelly) {
   const auto with = retargeted(scene.source, scene.source.skeleton, true, scene.volume);
   EXPECT_GT(deepest_of_hands_m(without.motion, scene.volume), 0.02);
   EXPECT_LT(deepest_of_hands_m(with.motion, scene.volume), 0.005);
-  EXPECT_LT(with.report.hands.arms.deepest_after_m, 0.005);
+  EXPECT_LT(with.report.hands.arms.max_depth_after_m, 0.005);
 }
 
 TEST(ResolveArmCollisions, MovesThemSmoothly) {
@@ -314,7 +314,7 @@ TEST(ResolveArmCollisions, SlidesHandsOnHipsOutOfABiggerBelly) {
   const BodyVolume belly = with_belly(average_volume(source.skeleton, map), 1.5);
   const auto out = retargeted(source, source.skeleton, true, belly);
   EXPECT_LT(out.report.hands.worst_touch_error_m, 0.01);
-  EXPECT_LT(out.report.hands.arms.deepest_after_m, 0.005);
+  EXPECT_LT(out.report.hands.arms.max_depth_after_m, 0.005);
 }
 
 // Hands that clap in front of a larger belly leave it together.
@@ -331,7 +331,7 @@ TEST(ResolveArmCollisions, LetsAWalkPassABiggerBelly) {
   const BodyMap map = mapped(source.skeleton);
   const BodyVolume belly = with_belly(average_volume(source.skeleton, map), 1.5);
   const auto out = retargeted(source, source.skeleton, true, belly);
-  EXPECT_LT(out.report.hands.arms.deepest_after_m, 0.005);
+  EXPECT_LT(out.report.hands.arms.max_depth_after_m, 0.005);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ TEST(ComparePostures, FindsNothingBetweenAMotionAndItself) {
   EXPECT_LT(figures.legs.median_rad, 1e-7);
   EXPECT_LT(figures.trunk.median_rad, 1e-7);
   EXPECT_EQ(figures.exchanged_share, 0.0);
-  EXPECT_EQ(figures.fastest, figures.source_fastest);
+  EXPECT_EQ(figures.max_speed, figures.source_max_speed);
 }
 
 TEST(ComparePostures, NamesTheLegThatIsOff) {
@@ -91,7 +91,7 @@ TEST(ComparePostures, FindsAJointFasterThanTheSourcesAndReportsTheFrame) {
   elbow = glm::angleAxis(glm::radians(120.0), glm::dvec3(0, 1, 0)) * elbow;
   const BodyMap map = *map_body(walk.skeleton);
   const PostureFigures figures = compare_postures(walk, map, made, map);
-  EXPECT_GT(figures.fastest, 3.0 * figures.source_fastest);
+  EXPECT_GT(figures.max_speed, 3.0 * figures.source_max_speed);
   EXPECT_EQ(figures.fastest_bone, HumanBone::kLeftHand);
   EXPECT_TRUE(figures.fastest_frame == 31 || figures.fastest_frame == 32);
 }
@@ -102,7 +102,7 @@ TEST(ComparePostures, ReportsTheFrameWhereTheSourceJumps) {
   walk.poses[20].root_in_world.x += 5.0;
   const BodyMap map = *map_body(walk.skeleton);
   const PostureFigures figures = compare_postures(walk, map, walk, map);
-  EXPECT_GT(figures.source_fastest, 100.0);
+  EXPECT_GT(figures.source_max_speed, 100.0);
   EXPECT_TRUE(figures.source_fastest_frame == 20 || figures.source_fastest_frame == 21);
 }
 

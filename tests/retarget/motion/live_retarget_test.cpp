@@ -90,7 +90,7 @@ TEST(LiveRetarget, NeverPutsAFootThroughTheFloor) {
     const Dressed out = dress(walk, avatar);
     Contacts none;
     none.frame_count = static_cast<int>(out.motion.poses.size());
-    EXPECT_LT(measure_feet(out.motion, map, none).deepest_penetration_mm, 1.0);
+    EXPECT_LT(measure_feet(out.motion, map, none).max_penetration_mm, 1.0);
     for (std::size_t side = 0; side < 2; ++side) {
       for (const glm::dvec3& p :
            path_of(out.motion, side == 0 ? B::kLeftFoot : B::kRightFoot)) {

@@ -89,7 +89,7 @@ TEST_P(EveryAvatar, KeepsItsFeetOutOfTheFloor) {
     source.poses[t].root_in_world.y -= 0.02 * std::sin(0.1 * static_cast<double>(t));
   }
   const auto out = retargeted(source, GetParam().make());
-  EXPECT_LT(out.report.after.deepest_penetration_mm, 1e-6);
+  EXPECT_LT(out.report.after.max_penetration_mm, 1e-6);
 }
 
 // Flat is flat: both joints of a foot that bears on heel and ball are where they are
@@ -128,7 +128,7 @@ TEST_P(EveryAvatar, WalksACapturedWalkWithoutSlidingOrSinking) {
   if (!source) GTEST_SKIP() << "no recording at " << truth_file("walk");
   const auto out = retargeted(*source, GetParam().make());
   EXPECT_LT(out.report.after.mean_slide_cm_per_s, 0.5);
-  EXPECT_LT(out.report.after.deepest_penetration_mm, 1.0);
+  EXPECT_LT(out.report.after.max_penetration_mm, 1.0);
   EXPECT_EQ(out.report.ground.unreachable_frames, 0);
 }
 
@@ -153,7 +153,7 @@ TEST_P(EveryAvatar, LandsACapturedJumpWithoutSlidingOrSinking) {
   if (!source) GTEST_SKIP() << "no recording at " << truth_file("jump");
   const auto out = retargeted(*source, GetParam().make());
   EXPECT_LT(out.report.after.mean_slide_cm_per_s, 0.5);
-  EXPECT_LT(out.report.after.deepest_penetration_mm, 1.0);
+  EXPECT_LT(out.report.after.max_penetration_mm, 1.0);
 }
 
 // While no foot bears, ground adaptation does not change the root's path.
@@ -282,7 +282,7 @@ TEST(MeasureFeet, SeesAFootThatSlidesAndSinks) {
   contacts.feet[0].heel = {{0, 9}};
   const FootFigures figures = measure_feet(motion, map, contacts);
   EXPECT_NEAR(figures.mean_slide_cm_per_s, 10.0, 1e-9);
-  EXPECT_NEAR(figures.deepest_penetration_mm, 5.0, 1e-9);
+  EXPECT_NEAR(figures.max_penetration_mm, 5.0, 1e-9);
 }
 
 // On tiptoe about its toe tips, heels high: the tips alone are in the floor.
@@ -305,7 +305,7 @@ TEST(MeasureFeet, SeesTheTipOfAFootWithoutAToeJoint) {
   Contacts contacts;
   contacts.frame_count = 1;
   EXPECT_NEAR(
-      measure_feet(motion, map, contacts).deepest_penetration_mm, 1e3 * under_m, 1e-6);
+      measure_feet(motion, map, contacts).max_penetration_mm, 1e3 * under_m, 1e-6);
 }
 
 }  // namespace
