@@ -21,6 +21,7 @@
 #include "recordings/text/atomic_file.h"
 #include "recordings/text/motion_limits.h"
 #include "recordings/text/nesting.h"
+#include "recordings/text/other_kind.h"
 
 namespace marey::recordings {
 namespace {
@@ -45,6 +46,9 @@ Result<std::string> json_of(const NamedModel& file, std::string_view bytes) {
       return file.fail(
           "this is a note of Git LFS in place of the file (git lfs pull "
           "fetches it)");
+    }
+    if (const Status ok = check_kind(bytes, file.file, kGltfKind); !ok) {
+      return ok.error();
     }
     return file.fail("this is neither a GLB file nor glTF text");
   }

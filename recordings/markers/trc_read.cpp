@@ -11,6 +11,7 @@
 #include "recordings/markers/trc.h"
 #include "recordings/markers/trc_header.h"
 #include "recordings/text/motion_limits.h"
+#include "recordings/text/other_kind.h"
 #include "recordings/text/text_reader.h"
 #include "recordings/text/trc_cells.h"
 
@@ -233,6 +234,7 @@ class Rows {
 Result<MarkerFile> parse_trc(std::string_view text,
                              const std::string& file,
                              const MarkerReadOptions& options) {
+  if (const Status ok = check_kind(text, file, kTrcKind); !ok) return ok.error();
   MarkerFile out;
   LineReader lines(text);
   Result<TrcHeader> header = read_trc_header(lines, file);

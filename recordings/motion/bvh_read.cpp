@@ -20,6 +20,7 @@
 #include "recordings/takes/meant_rate.h"
 #include "recordings/text/atomic_file.h"
 #include "recordings/text/motion_limits.h"
+#include "recordings/text/other_kind.h"
 #include "recordings/text/text_reader.h"
 #include "recordings/text/word_text.h"
 
@@ -378,6 +379,7 @@ Result<BvhMotion> parse_bvh(std::string_view text,
                             const std::string& file,
                             const BvhReadOptions& options) {
   MAREY_ASSERT(options.unit_m > 0.0);
+  if (const Status ok = check_kind(text, file, kBvhKind); !ok) return ok.error();
   Result<BvhFile> parsed = BvhParser(text, file, options.unit_m).parse();
   if (!parsed) return parsed.error();
   return motion_of(*std::move(parsed), options.unit_m);

@@ -17,7 +17,7 @@
 #include "recordings/session/session_target.h"
 #include "recordings/session/trial_rules.h"
 #include "recordings/text/atomic_file.h"
-#include "recordings/text/toml_reader.h"
+#include "recordings/text/toml_kind.h"
 #include "recordings/text/word_text.h"
 
 namespace marey::recordings {
@@ -393,7 +393,7 @@ Result<Session> read_session(const fs::path& path, const ReadSessionOptions& opt
   Result<TomlDocument> document = parse_toml(*text, session.file.string(), "session.md");
   if (!document) return document.error();
   SessionReader(*document, options, session).read();
-  if (document->mistake) return *document->mistake;
+  if (document->mistake) return mistake_of(*document, TomlKind::kSession);
   return session;
 }
 
