@@ -7,9 +7,6 @@
 namespace marey::live {
 namespace {
 
-constexpr int kLargestPacket = 65507;  // Limit of UDP over IPv4.
-// A bundle of one bone with the longest name, RightMiddleIntermediate.
-constexpr int kSmallestPacket = 16 + 4 + 20 + 12 + 24 + 7 * 4;
 // Overhead of a text message: bundle, size, address, types, padding. [bytes]
 constexpr int kAroundText = 64;
 
@@ -44,12 +41,12 @@ VmcEncoder::VmcEncoder(const VmcEncoderOptions& options, std::size_t limit_bytes
     : info_(options.info), writer_(limit_bytes), first_(options.begin) {}
 
 Result<VmcEncoder> VmcEncoder::make(const VmcEncoderOptions& options) {
-  const int limit = options.mtu_bytes.value_or(kLargestPacket);
-  if (limit < kSmallestPacket || limit > kLargestPacket) {
+  const int limit = options.mtu_bytes.value_or(kMaxPacketBytes);
+  if (limit < kMinPacketBytes || limit > kMaxPacketBytes) {
     return bad_input("VMC",
                      "packets of " + std::to_string(limit) + " bytes are not possible",
-                     "choose " + std::to_string(kSmallestPacket) + " to " +
-                         std::to_string(kLargestPacket) + " bytes; networks take 1472");
+                     "choose " + std::to_string(kMinPacketBytes) + " to " +
+                         std::to_string(kMaxPacketBytes) + " bytes; networks take 1472");
   }
   const VmcInfo& info = options.info;
   const std::size_t longest =
