@@ -103,7 +103,7 @@ Status choose_balance_groups(const AdaptArguments& args, Character& character) {
       found = true;
     }
     if (!found) {
-      return bad_input("--balance-groups",
+      return bad_usage("--balance-groups",
                        "the character has no group \"" + wanted + "\"",
                        suggestion(wanted, names));
     }
@@ -250,7 +250,7 @@ void add_choice(CLI::App& command,
           option,
           [&value, words](const std::string& word) { value = words.at(word); },
           help)
-      ->check(CLI::IsMember(words))
+      ->check(one_of_keys(words))
       ->type_name("WORD");
 }
 
@@ -293,7 +293,7 @@ void add_solve_options(CLI::App& command, retarget::AdaptOptions& options) {
                   "method makes at least " +
                       std::to_string(retarget::kFirstSteps) + ", with balance " +
                       std::to_string(retarget::kFirstStepsBalanced))
-      ->check(CLI::Range(1, 100000));
+      ->check(whole_between(1, 100000));
 }
 
 }  // namespace
@@ -323,7 +323,7 @@ void add_adapt_command(CLI::App& app,
                        std::function<Exit(Console&)>& chosen) {
   CLI::App* command = app.add_subcommand(
       "adapt", "Adapt a motion to constraints, with feet that do not slide");
-  command->add_option("motion", args.motion, ".bvh, .glb, .vrm or .vrma")->required();
+  command->add_option("MOTION", args.motion, ".bvh, .glb, .vrm or .vrma")->required();
   command->add_option("-c,--character",
                       args.character,
                       "character.toml of the body; default the motion's body");

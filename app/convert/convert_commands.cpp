@@ -140,32 +140,34 @@ void add_convert_command(CLI::App& app,
                          std::function<Exit(Console&)>& chosen) {
   CLI::App* command =
       app.add_subcommand("convert", "Convert markers or a motion to another format");
-  const CLI::IsMember axis({"+X", "+Y", "+Z", "-X", "-Y", "-Z"});
-  const CLI::IsMember unit({"mm", "cm", "m", "in", "ft"});
+  const CLI::Validator axis = one_of({"+X", "+Y", "+Z", "-X", "-Y", "-Z"});
+  const CLI::Validator unit = one_of({"mm", "cm", "m", "in", "ft"});
   command
-      ->add_option("in", args.in, ".c3d or .trc; .bvh, .amc, .npz, .glb, .vrm or .vrma")
+      ->add_option(
+          "INPUT", args.in, ".c3d or .trc; .bvh, .amc, .npz, .glb, .vrm or .vrma")
       ->required();
   command
-      ->add_option("out",
+      ->add_option("OUTPUT",
                    args.out,
                    "Result; markers: .c3d or .trc; motion: .bvh, .vrma, .npz, .csv "
                    "or .mot")
       ->required();
-  command->add_option("--up", args.up, "Up axis of IN, if the detected one is wrong")
+  command->add_option("--up", args.up, "Up axis of INPUT, if the detected one is wrong")
       ->check(axis);
-  command->add_option("--unit", args.unit, "Unit of IN, if its file is wrong")
+  command->add_option("--unit", args.unit, "Unit of INPUT, if its file is wrong")
       ->check(unit);
-  command->add_option("--to-up", args.to_up, "Up axis of OUT")->check(axis);
-  command->add_option("--to-unit", args.to_unit, "Unit of OUT")->check(unit);
+  command->add_option("--to-up", args.to_up, "Up axis of OUTPUT")->check(axis);
+  command->add_option("--to-unit", args.to_unit, "Unit of OUTPUT")->check(unit);
   command->add_option(
       "--skeleton", args.skeleton, "The .asf of an .amc, if not in its folder");
   command
-      ->add_option("--rate", args.rate_hz, "Frame rate of IN [Hz], if its file is wrong")
+      ->add_option(
+          "--rate", args.rate_hz, "Frame rate of INPUT [Hz], if its file is wrong")
       ->check(between(0.1, 2000.0));
-  command->add_option("--to-rate", args.to_rate_hz, "Frames per second of OUT")
+  command->add_option("--to-rate", args.to_rate_hz, "Frames per second of OUTPUT")
       ->check(between(0.1, 2000.0));
   command->add_option("--bvh-dialect", args.bvh_dialect, "Program that reads the .bvh")
-      ->check(CLI::IsMember({"blender", "mobu", "maya", "unity"}));
+      ->check(one_of({"blender", "mobu", "maya", "unity"}));
   command->add_option("--neutral", args.neutral, kNeutralHelp)->check(neutral_mistake);
   command->add_flag("--json", args.json, "Print the figures as JSON on standard output");
   command->callback(

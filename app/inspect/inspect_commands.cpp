@@ -140,8 +140,8 @@ void add_inspect_command(CLI::App& app,
                          InspectArguments& args,
                          std::function<Exit(Console&)>& chosen) {
   CLI::App* command = app.add_subcommand("inspect", "Show the content of a file");
-  command->add_option("file", args.file, "A session, result, motion or body")->required();
-  command->add_flag("--json", args.json, "As JSON");
+  command->add_option("FILE", args.file, "A session, result, motion or body")->required();
+  command->add_flag("--json", args.json, "Print the content as JSON on standard output");
   command->add_option("--bones", args.body.bone_map, "Bone map of the body (TOML)");
   command->add_flag(
       "--write-map", args.body.write_map, "Write the bone map next to the body");

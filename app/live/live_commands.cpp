@@ -15,6 +15,7 @@
 #include "app/shell/stop_signal.h"
 #include "app/view/view_commands.h"
 #include "core/human/average_proportions.h"
+#include "live/vmc/vmc_encoder.h"
 #include "live/vmc/vmc_sender.h"
 
 namespace marey::app {
@@ -162,7 +163,7 @@ void add_live_command(CLI::App& app,
                       std::function<Exit(Console&)>& chosen) {
   CLI::App* command =
       app.add_subcommand("live", "Track a subject live and move characters");
-  command->add_option("session", live.session, "session.toml, or its folder")->required();
+  command->add_option("SESSION", live.session, "session.toml, or its folder")->required();
   command->add_option("--results",
                       live.results,
                       "Folder with calibration.toml and subject.toml, if not the "
@@ -188,14 +189,14 @@ void add_live_command(CLI::App& app,
           "--vmc", live.vmc, "Receiver of VMC: [AVATAR=]HOST[:PORT]; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--vmc-rest", live.vmc_rest, "Pose without rotations: vrm0 or raw")
-      ->check(CLI::IsMember({"vrm0", "raw"}));
+      ->check(one_of({"vrm0", "raw"}));
   command
       ->add_option("--vmc-mtu",
                    live.vmc_mtu,
                    "Largest packet in bytes; 0: one bundle a frame, as on this machine")
-      ->check(between(0, 65507));
+      ->check(zero_or_between(live::kMinPacketBytes, live::kMaxPacketBytes));
   command->add_option("--vmc-listen", live.vmc_listen, "Port to receive commands on")
-      ->check(between(1, 65535));
+      ->check(whole_between(1, 65535));
   command->add_flag("--vmc-deaf", live.vmc_deaf, "Receive no commands");
   command
       ->add_option("--vrchat",

@@ -33,8 +33,7 @@ bool wait_until(std::chrono::steady_clock::time_point instant) {
   while (!stop_wanted()) {
     const auto now = std::chrono::steady_clock::now();
     if (now >= instant) return true;
-    std::this_thread::sleep_for(
-        std::min<std::chrono::nanoseconds>(instant - now, kLook));
+    std::this_thread::sleep_for(std::min<std::chrono::nanoseconds>(instant - now, kLook));
   }
   return false;
 }
@@ -72,8 +71,7 @@ Result<Replayed> replay(const ReplayArguments& arguments,
                         LiveOutputs& outputs,
                         const Progress& progress) {
   using Clock = std::chrono::steady_clock;
-  const std::string file =
-      (arguments.take / recordings::kLiveTakeFile).string();
+  const std::string file = (arguments.take / recordings::kLiveTakeFile).string();
   Clock::time_point begin = Clock::now();
   const auto& instants = opened.take.instants;
   Replayed found;
@@ -164,18 +162,16 @@ void add_replay_command(CLI::App& app,
                         std::function<Exit(Console&)>& chosen) {
   CLI::App* command =
       app.add_subcommand("replay", "Replay a recorded live run, with the same bytes");
-  command->add_option("take", args.take, "Folder written by marey live --record")
+  command->add_option("TAKE", args.take, "Folder written by marey live --record")
       ->required();
-  command
-      ->add_option("--vmc", args.vmc, "Receiver of the packets: [AVATAR=]HOST[:PORT]")
+  command->add_option("--vmc", args.vmc, "Receiver of the packets: [AVATAR=]HOST[:PORT]")
       ->allow_extra_args(false);
   command->add_option("--speed", args.speed, "Speed factor: 1 is the recorded speed")
       ->check(between(0.01, 100.0));
   command->add_flag("--fast", args.fast, "Replay without pauses");
   command->add_flag("--json", args.json, "Print the figures as JSON");
-  command->callback([&] {
-    chosen = [&args](Console& console) { return run_replay(args, console); };
-  });
+  command->callback(
+      [&] { chosen = [&args](Console& console) { return run_replay(args, console); }; });
 }
 
 }  // namespace marey::app

@@ -11,6 +11,7 @@
 
 #include "app/markers/marker_report.h"
 #include "app/markers/repair_json.h"
+#include "app/shell/option_checks.h"
 #include "core/base/extension.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/markers/marker_file.h"
@@ -128,13 +129,13 @@ void add_repair_command(CLI::App& app,
                         std::function<Exit(Console&)>& chosen) {
   CLI::App* command =
       app.add_subcommand("repair", "Fill the gaps of labelled markers (C3D, TRC)");
-  command->add_option("in", args.in, ".c3d or .trc")->required();
+  command->add_option("INPUT", args.in, "Labelled markers, .c3d or .trc")->required();
   command->add_option("-o,--out", args.out, "Result: .c3d or .trc")->required();
   command
       ->add_option("--most-sigma",
                    args.max_sigma_m,
                    "Samples with a larger sigma are left empty [m]")
-      ->check(CLI::Range(0.001, 10.0));
+      ->check(between(0.001, 10.0));
   command->add_flag("--json", args.json, "Print OUT.repair.json on standard output");
   command->callback(
       [&] { chosen = [&args](Console& console) { return run_repair(args, console); }; });

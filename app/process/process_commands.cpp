@@ -77,7 +77,7 @@ void add_session_command(CLI::App& app,
                          SessionArguments& args,
                          std::function<Exit(Console&)>& chosen) {
   CLI::App* command = app.add_subcommand(name, help);
-  command->add_option("session", args.pipeline.session, "session.toml, or its folder")
+  command->add_option("SESSION", args.pipeline.session, "session.toml, or its folder")
       ->required();
   command->add_option("-o,--out", args.pipeline.out, "Folder for the results")
       ->required();
@@ -99,7 +99,7 @@ void add_session_command(CLI::App& app,
                      args.pipeline.lens,
                      "Lens of the cameras, instead of the session's: auto, "
                      "brown-conrady, rational or fisheye")
-        ->check(CLI::IsMember(lenses));
+        ->check(one_of(lenses));
   }
   command->add_flag("--json", args.json, "Print the figures as JSON on standard output");
   command->callback([&, stage] {

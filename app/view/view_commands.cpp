@@ -124,7 +124,7 @@ Exit run_view(const ViewArguments& args, Console& console) {
 
 void add_page_options(CLI::App& command, PageServerOptions& options) {
   command.add_option("--port", options.port, "Port of the page; 0: any free port")
-      ->check(CLI::Range(0, 65535));
+      ->check(whole_between(0, 65535));
   command.add_flag(
       "--lan", options.lan, "Allow other machines, by an address with a token");
   command.add_option("--web-root",
@@ -140,9 +140,10 @@ void add_view_command(CLI::App& app,
   CLI::App* command = app.add_subcommand(
       "view", "Show a motion, markers, cameras or results in a browser");
   command
-      ->add_option("what",
+      ->add_option("FILE",
                    args.choice.what,
-                   ".bvh, .amc, .glb, .gltf, .vrm, .vrma, .c3d, .trc, calibration.toml, "
+                   "What to show: .bvh, .amc, .glb, .gltf, .vrm, .vrma, .c3d, .trc, "
+                   "calibration.toml, "
                    "a folder of results or a take of marey live")
       ->required();
   command->add_option("--trial", args.choice.trial, "Which trial of a folder of results");

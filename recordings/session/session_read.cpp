@@ -11,6 +11,7 @@
 #include "core/humanoid.h"
 #include "core/nearest_word.h"
 #include "recordings/base/atomic_file.h"
+#include "recordings/base/toml_kind.h"
 #include "recordings/base/toml_reader.h"
 #include "recordings/base/word_text.h"
 #include "recordings/session/session.h"
@@ -393,7 +394,7 @@ Result<Session> read_session(const fs::path& path, const ReadSessionOptions& opt
   Result<TomlDocument> document = parse_toml(*text, session.file.string(), "session.md");
   if (!document) return document.error();
   SessionReader(*document, options, session).read();
-  if (document->mistake) return *document->mistake;
+  if (document->mistake) return mistake_of(*document, TomlKind::kSession);
   return session;
 }
 
