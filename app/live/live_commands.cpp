@@ -28,7 +28,8 @@ Result<LiveOutputs> open_outputs(const LiveArguments& arguments,
                                  Console& console) {
   if (live.settings.streams.empty()) return LiveOutputs::open({}, {}, live.vrchat);
   std::optional<int>& port = live.settings.streams.front().listen_port;
-  if (!arguments.vmc_deaf) port = arguments.vmc_listen.value_or(live::kPerformerPort);
+  if (!arguments.vmc_send_only)
+    port = arguments.vmc_listen.value_or(live::kPerformerPort);
   auto outputs = LiveOutputs::open(live.settings.streams, live.targets, live.vrchat);
   if (outputs || !port || arguments.vmc_listen) return outputs;
   const Error trouble = outputs.error();
@@ -196,8 +197,9 @@ void add_live_command(CLI::App& app,
                    "Largest packet in bytes; 0: one bundle a frame, as on this machine")
       ->check(zero_or_between(live::kMinPacketBytes, live::kMaxPacketBytes));
   command->add_option("--vmc-listen", live.vmc_listen, "Port to receive commands on")
-      ->check(whole_between(1, 65535));
-  command->add_flag("--vmc-deaf", live.vmc_deaf, "Receive no commands");
+      ->check(between(1, 65535));
+  command->add_flag("--vmc-send-only", live.vmc_send_only, "Receive no commands");
+  command->add_flag("--vmc-deaf", live.vmc_send_only)->group("");  // The former name.
   command
       ->add_option("--vrchat",
                    live.vrchat,

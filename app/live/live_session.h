@@ -39,7 +39,7 @@ struct LiveArguments {
   std::string vmc_rest = "vrm0";
   std::optional<int> vmc_mtu;       ///< nullopt: by the target; 0: one bundle a frame.
   std::optional<int> vmc_listen;    ///< nullopt: VMC's own port, if it is free.
-  bool vmc_deaf = false;            ///< Receives no VMC commands.
+  bool vmc_send_only = false;       ///< Receives no VMC commands.
   std::vector<std::string> vrchat;  ///< "HOST[:PORT]".
   std::filesystem::path record;     ///< Folder of the take; empty: not recorded.
   std::optional<double> seconds;

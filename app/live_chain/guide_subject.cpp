@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/live_chain/subject_quality.h"
+#include "app/live_chain/assess_live_subject.h"
 #include "core/base/assert.h"
 
 namespace marey::app {
@@ -355,7 +355,7 @@ void SubjectGuide::finish(const Result<reconstruct::SubjectFit>& fit) {
   if (!fit) return fail(fit.error().message());
   ui_state_.step = WizardStep::kDone;
   ui_state_.title = "The body is measured";
-  ui_state_.quality = assess_subject(*fit);
+  ui_state_.quality = assess_live_subject(*fit);
   ui_state_.text = is_good() ? "Accept stores it, and the run continues with it."
                              : "Some values are poor: cancel and start again.";
 }

@@ -25,7 +25,7 @@ constexpr double kMinSolvedShare = 0.8;
 // Right labels have a places_off of 0.6 to 1.4 (fit_labels.cpp).
 constexpr double kMaxPlacesOff = 2.0;
 
-Finding far_off(const MarkerTrial& trial, const SubjectFit* subject) {
+Finding far_off(const MarkerTrial& trial, const LabelledFit* subject) {
   Finding finding{
       Severity::kPoor,
       "fit",
@@ -113,7 +113,7 @@ double share_solved(const MarkerTrial& trial) {
 }
 
 std::vector<Finding> assess_fit(std::span<const MarkerTrial> trials,
-                                const SubjectFit* subject,
+                                const LabelledFit* subject,
                                 const Body& body,
                                 std::optional<double> stature_m) {
   std::vector<Finding> poor;

@@ -20,7 +20,7 @@ namespace marey::app {
 /// markers.
 /// `subject` may be null: an earlier fit was used. `stature_m` is the given stature.
 [[nodiscard]] std::vector<Finding> assess_fit(std::span<const MarkerTrial> trials,
-                                              const SubjectFit* subject,
+                                              const LabelledFit* subject,
                                               const Body& body,
                                               std::optional<double> stature_m);
 

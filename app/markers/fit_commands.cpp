@@ -118,7 +118,7 @@ Error cause_of(const FitRun& run, Error error) {
 std::vector<Finding> assess_all(const FitArguments& args, FitRun& run) {
   std::vector<Finding> failures = assess_sides_and_axes(run.trials, run.geometry);
   if (!failures.empty()) return failures;
-  const SubjectFit* subject = run.subject ? &*run.subject : nullptr;
+  const LabelledFit* subject = run.subject ? &*run.subject : nullptr;
   run.checks = find_label_faults(
       run.body, given_subject(args, run), subject, run.labels, run.trials);
   failures = assess_fit(run.trials, subject, run.body, args.stature_m);

@@ -139,7 +139,7 @@ Json fit_json(const FitRun& run) {
            {"stature_m", rounded(run.body.stature_m, 4)},
            {"label_set", run.labels.names.set}};
   if (run.subject) {
-    const SubjectFit& subject = *run.subject;
+    const LabelledFit& subject = *run.subject;
     const auto& measured = subject.fit.measured_stature;
     out["measured_stature_m"] = measured ? Json(rounded(measured->stature_m, 4)) : Json();
     out["stature_sigma_m"] = measured ? Json(rounded(measured->sigma_m, 4)) : Json();

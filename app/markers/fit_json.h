@@ -29,7 +29,7 @@ struct FitTimes {
 /// Results of `marey fit`.
 struct FitRun {
   FitLabels labels;
-  std::optional<SubjectFit> subject;  ///< None: an earlier fit was used.
+  std::optional<LabelledFit> subject;  ///< None: an earlier fit was used.
   Body body;
   std::vector<reconstruct::TrialGeometry> geometry;  ///< One per trial.
   LabelChecks checks;

@@ -145,13 +145,13 @@ Result<FitLabels> name_labels(std::span<const MarkerTracks> trials,
                    "\"Marker map\")");
 }
 
-Result<SubjectFit> fit_subject_to(const reconstruct::MarkerSubject& subject,
-                                  std::span<const MarkerTracks> trials,
-                                  const FitLabels& labels,
-                                  const Progress& progress) {
+Result<LabelledFit> fit_subject_to(const reconstruct::MarkerSubject& subject,
+                                   std::span<const MarkerTracks> trials,
+                                   const FitLabels& labels,
+                                   const Progress& progress) {
   std::vector<NamedMarker> markers = used_labels(labels);
   auto fit = reconstruct::fit_markers(subject, trials, markers, progress);
-  SubjectFit out;
+  LabelledFit out;
   if (fit) {
     const auto off = places_off(*fit, markers);
     out.places_off = off.value_or(0.0);

@@ -34,7 +34,7 @@ struct FitLabels {
 [[nodiscard]] std::vector<reconstruct::NamedMarker> used_labels(const FitLabels& labels);
 
 /// A fitted subject, and evidence for wrong labels.
-struct SubjectFit {
+struct LabelledFit {
   reconstruct::MarkersFit fit;
   /// Distances of the markers from their average places on the body, divided by the
   /// standard deviation between people: the median over markers; about 1 for right
@@ -49,9 +49,10 @@ struct SubjectFit {
 ///
 /// Errors (kBadInput, `where` empty): fit_markers()'s; markers of a body that is not of
 /// human size; left and right exchanged.
-[[nodiscard]] Result<SubjectFit> fit_subject_to(const reconstruct::MarkerSubject& subject,
-                                                std::span<const MarkerTracks> trials,
-                                                const FitLabels& labels,
-                                                const Progress& progress);
+[[nodiscard]] Result<LabelledFit> fit_subject_to(
+    const reconstruct::MarkerSubject& subject,
+    std::span<const MarkerTracks> trials,
+    const FitLabels& labels,
+    const Progress& progress);
 
 }  // namespace marey::app

@@ -71,7 +71,7 @@ std::vector<std::string> unused_words(const FitRun& run) {
 }
 
 /// Returns the subject's stature and its uncertainty.
-std::string stature_words(const SubjectFit& subject, const Body& body) {
+std::string stature_words(const LabelledFit& subject, const Body& body) {
   const auto& measured = subject.fit.measured_stature;
   if (!measured) {
     return formatted("subject: %.3f m tall (given or average: markers do not show it)",
@@ -87,7 +87,7 @@ std::string stature_words(const SubjectFit& subject, const Body& body) {
                    measured->sigma_m);
 }
 
-void add_fit_words(const SubjectFit& subject,
+void add_fit_words(const LabelledFit& subject,
                    const Body& body,
                    std::vector<std::string>& lines) {
   std::vector<std::string> found;

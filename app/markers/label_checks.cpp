@@ -142,7 +142,7 @@ void assess_places(const LabelChecks& checks,
 
 LabelChecks find_label_faults(const Body& body,
                               const reconstruct::MarkerSubject& given,
-                              const SubjectFit* subject,
+                              const LabelledFit* subject,
                               const FitLabels& labels,
                               std::span<const MarkerTrial> trials) {
   const std::vector<reconstruct::NamedMarker> markers = used_labels(labels);

@@ -26,7 +26,7 @@ struct LabelChecks {
 /// exchange in all trials, which costs up to nine small fits.
 [[nodiscard]] LabelChecks find_label_faults(const Body& body,
                                             const reconstruct::MarkerSubject& given,
-                                            const SubjectFit* subject,
+                                            const LabelledFit* subject,
                                             const FitLabels& labels,
                                             std::span<const MarkerTrial> trials);
 

@@ -132,10 +132,14 @@ void add_repair_command(CLI::App& app,
   command->add_option("INPUT", args.in, "Labelled markers, .c3d or .trc")->required();
   command->add_option("-o,--out", args.out, "Result: .c3d or .trc")->required();
   command
-      ->add_option("--most-sigma",
+      ->add_option("--max-sigma",
                    args.max_sigma_m,
                    "Samples with a larger sigma are left empty [m]")
-      ->check(between(0.001, 10.0));
+      ->check(CLI::Range(0.001, 10.0));
+  command
+      ->add_option("--most-sigma", args.max_sigma_m)  // The former name, not listed.
+      ->check(CLI::Range(0.001, 10.0))
+      ->group("");
   command->add_flag("--json", args.json, "Print OUT.repair.json on standard output");
   command->callback(
       [&] { chosen = [&args](Console& console) { return run_repair(args, console); }; });

@@ -19,10 +19,10 @@
 namespace marey::app {
 namespace {
 
-using Places = std::vector<std::vector<glm::dvec3>>;
+using JointPlaces = std::vector<std::vector<glm::dvec3>>;
 
-Places places_of(const Motion& motion) {
-  Places out;
+JointPlaces joint_places(const Motion& motion) {
+  JointPlaces out;
   for (const Pose& pose : motion.poses) {
     std::vector<glm::dvec3>& places = out.emplace_back();
     for (const RigidTransform& joint : world_from_joints(motion.skeleton, pose)) {
@@ -37,12 +37,12 @@ Result<recordings::PosedPlaces> read_places(const WrittenFile& file) {
   if (file.format == MotionFormat::kBvh) {
     const auto read = recordings::read_bvh(file.path, {.unit_m = file.unit_m});
     if (!read) return read.error();
-    return recordings::PosedPlaces{places_of(read->motion), {}};
+    return recordings::PosedPlaces{joint_places(read->motion), {}};
   }
   if (file.format == MotionFormat::kNpz) {
     const auto read = recordings::read_npz(file.path);
     if (!read) return read.error();
-    return recordings::PosedPlaces{places_of(read->motion), {}};
+    return recordings::PosedPlaces{joint_places(read->motion), {}};
   }
   auto read = recordings::read_posed_places(file.path);
   if (!read) return read.error();

@@ -31,7 +31,7 @@ bool is_there(const fs::path& file) {
 
 using JointPlaces = std::map<std::string, std::size_t, std::less<>>;
 
-JointPlaces places_of(const Skeleton& skeleton) {
+JointPlaces joint_places(const Skeleton& skeleton) {
   JointPlaces out;
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
     out.emplace(skeleton.joints[i].name, i);
@@ -60,7 +60,7 @@ Status read_uncertainty(const fs::path& folder, ViewedFigure& figure, int& first
   const auto segments = recordings::read_segments_csv(folder / "segments.csv");
   if (!segments) return segments.error();
   if (!segments->empty()) first_frame = segments->front().frame;
-  const JointPlaces places = places_of(figure.motion.skeleton);
+  const JointPlaces places = joint_places(figure.motion.skeleton);
   figure.uncertainty.assign(
       figure.motion.poses.size(),
       std::vector<JointUncertainty>(figure.motion.skeleton.joints.size()));

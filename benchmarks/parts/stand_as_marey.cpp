@@ -8,8 +8,8 @@
 
 namespace marey {
 
-Result<retarget::BodyFrame> stand_as_marey(const retarget::FileUnit& unit,
-                                           Motion& motion) {
+Result<retarget::BodyConstants> stand_as_marey(const retarget::FileUnit& unit,
+                                               Motion& motion) {
   auto bones = retarget::identify_bones(motion.skeleton);
   if (!bones) return bones.error();
   if (!motion.poses.empty() && !retarget::stands_at_rest(motion.skeleton, *bones)) {

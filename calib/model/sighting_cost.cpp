@@ -152,15 +152,15 @@ struct TargetPose {
 };
 
 /// Indices of the blocks (SightingCost).
-struct SightingCost::Places {
+struct SightingCost::BlockIndices {
   std::size_t clock = 0;
   std::size_t shrinkage = 0;
   std::size_t piece = 0;
   std::size_t warp = 0;
 };
 
-SightingCost::Places SightingCost::places() const {
-  Places places;
+SightingCost::BlockIndices SightingCost::places() const {
+  BlockIndices places;
   std::size_t next = kFirstPose + (parts_.spline ? 4 : 1);
   places.clock = next;
   next += parts_.spline ? 1 : 0;
@@ -201,7 +201,7 @@ struct SightingCost::View {
 };
 
 bool SightingCost::project_target(const double* const* blocks, View& view) const {
-  const Places at = places();
+  const BlockIndices at = places();
   view.target = target_pose(blocks);
   const double* camera = blocks[1];
   const Eigen::Matrix3d camera_from_world =
@@ -295,7 +295,7 @@ void SightingCost::put_target(const View& view, double** jacobians) const {
 }
 
 void SightingCost::put_rest(const View& view, double** jacobians) const {
-  const Places at = places();
+  const BlockIndices at = places();
   const Eigen::Matrix3d& rotation = view.target.rotation;
   if (parts_.shrinks && jacobians[at.shrinkage]) {
     Eigen::Map<Eigen::Matrix<double, 8, 2, Eigen::RowMajor>> out(jacobians[at.shrinkage]);

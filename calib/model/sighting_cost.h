@@ -81,10 +81,10 @@ class SightingCost final : public ceres::CostFunction {
                 double** jacobians) const override;
 
  private:
-  struct Places;
+  struct BlockIndices;
   struct View;
 
-  [[nodiscard]] Places places() const;
+  [[nodiscard]] BlockIndices places() const;
   [[nodiscard]] TargetPose target_pose(const double* const* blocks) const;
   [[nodiscard]] bool project_target(const double* const* blocks, View& view) const;
   template <class OfCorner>

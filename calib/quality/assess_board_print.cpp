@@ -21,7 +21,7 @@ constexpr double kPoorShrinkage = 0.015;
 
 }  // namespace
 
-void assess_board_print(FindingList& list) {
+void assess_board_print(FindingCollector& list) {
   std::vector<double> slopes;
   for (const Camera& camera : list.report.rig.cameras) {
     slopes.push_back(camera.tag_shrinkage.slope);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "calib/quality/finding_list.h"
+#include "calib/quality/finding_collector.h"
 
 namespace marey::calib {
 
@@ -11,6 +11,6 @@ namespace marey::calib {
 /// (fair) or 1.5 % (poor). A wrong size changes this ratio by the same share in all
 /// cameras. Lens blur and light change it in one camera by a number of pixels. No finding
 /// for other targets, whose shrinkage is 0. Reads TagShrinkage::slope of the cameras.
-void assess_board_print(FindingList& list);
+void assess_board_print(FindingCollector& list);
 
 }  // namespace marey::calib

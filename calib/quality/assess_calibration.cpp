@@ -10,21 +10,21 @@
 #include "calib/quality/assess_residuals.h"
 #include "calib/quality/assess_target_views.h"
 #include "calib/quality/assess_timing.h"
-#include "calib/quality/finding_list.h"
+#include "calib/quality/finding_collector.h"
 
 namespace marey::calib {
 namespace {
 
 /// Merges findings that several cameras share into one, at the position of the first.
-std::vector<Finding> merge_shared(std::vector<SharedFinding> found) {
+std::vector<Finding> merge_shared(std::vector<MergeableFinding> found) {
   std::vector<Finding> out;
   for (std::size_t i = 0; i < found.size(); ++i) {
-    SharedFinding& first = found[i];
+    MergeableFinding& first = found[i];
     if (first.finding.where.empty()) continue;
     int count = 0;
     std::string names;
     for (std::size_t k = i; k < found.size() && !first.figure.empty(); ++k) {
-      SharedFinding& other = found[k];
+      MergeableFinding& other = found[k];
       if (other.cause != first.cause || other.figure.empty() ||
           other.finding.severity != first.finding.severity) {
         continue;
@@ -47,7 +47,7 @@ std::vector<Finding> merge_shared(std::vector<SharedFinding> found) {
 }  // namespace
 
 std::vector<Finding> assess_calibration(const CalibrationReport& report) {
-  FindingList list{report, {}};
+  FindingCollector list{report, {}};
   assess_board_print(list);
   assess_point_error(list);
   assess_camera_faults(list);

@@ -14,7 +14,7 @@ namespace marey::calib {
 /// its findings. Limits in pixels apply to images up to 1920 px wide (pixel_scale()).
 /// Precondition: `report.cameras`, `report.rig.cameras` and `report.rig.quality` have
 /// one entry per camera, in one order. The same holds for every assess_*() of this folder
-/// with its FindingList.
+/// with its FindingCollector.
 [[nodiscard]] std::vector<Finding> assess_calibration(const CalibrationReport& report);
 
 /// Returns the verdict of `report.findings`, by the first and worst: "good" (none, or

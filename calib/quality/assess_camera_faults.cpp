@@ -54,7 +54,7 @@ bool others_are_loose(const CalibrationReport& report, const ApparentMove& move)
 
 /// Returns the camera that seems to have been moved, and those that explain the errors as
 /// well: "camera cam1 or cam2". Precondition: the report has an apparent move.
-std::string moved_cameras(const FindingList& list) {
+std::string moved_cameras(const FindingCollector& list) {
   const ApparentMove& move = *list.report.rig.apparent_move;
   std::string text = list.camera(index(move.camera));
   for (const CameraId other : move.alternatives) {
@@ -63,7 +63,7 @@ std::string moved_cameras(const FindingList& list) {
   return text;
 }
 
-void assess_move(FindingList& list) {
+void assess_move(FindingCollector& list) {
   const auto& move = list.report.rig.apparent_move;
   if (!move) return;
   const std::size_t c = index(move->camera);
@@ -108,7 +108,7 @@ void assess_move(FindingList& list) {
 
 /// Reports a lens or a mount that changed slowly or slightly: hardly visible in the
 /// image, but enough to shift the calibrated cameras by centimetres.
-void assess_unsteady(FindingList& list) {
+void assess_unsteady(FindingCollector& list) {
   const auto& move = list.report.rig.apparent_move;
   const auto& rows = list.report.rig.apparent_line_delays;
   if (!move || move->gain < kMinMoveGain || (rows && rows->gain > move->gain)) return;
@@ -133,7 +133,7 @@ void assess_unsteady(FindingList& list) {
       .measured(1e3 * move->rig_shift_m, 1e3 * limits[0], "mm");
 }
 
-void assess_rows(FindingList& list) {
+void assess_rows(FindingCollector& list) {
   const auto& rows = list.report.rig.apparent_line_delays;
   const auto& move = list.report.rig.apparent_move;
   if (!rows || rows->gain < kMinMoveGain || (move && move->gain > rows->gain)) return;
@@ -168,7 +168,7 @@ void assess_rows(FindingList& list) {
       .measured(1e3 * shift_m, std::nullopt, "mm");
 }
 
-void assess_ambiguous(FindingList& list) {
+void assess_ambiguous(FindingCollector& list) {
   const auto& other = list.report.rig.ambiguous;
   if (!other) return;
   list.add(Severity::kPoor,
@@ -200,7 +200,7 @@ bool seems_moved(const CalibrationReport& report, std::size_t c) {
          move->moved_px > kFairMovePx * moved_scale(report, c);
 }
 
-void assess_camera_faults(FindingList& list) {
+void assess_camera_faults(FindingCollector& list) {
   assess_move(list);
   assess_unsteady(list);
   assess_rows(list);

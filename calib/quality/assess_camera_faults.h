@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "calib/quality/finding_list.h"
+#include "calib/quality/finding_collector.h"
 
 namespace marey::calib {
 
@@ -18,7 +18,7 @@ namespace marey::calib {
 /// A move and line delays have similar effects: only the one with the larger gain is
 /// reported, from a gain of 400 (squared sigmas). The limits of errors are
 /// CalibrationLimits::error_m. Reads the results of apparent_faults.h in `report.rig`.
-void assess_camera_faults(FindingList& list);
+void assess_camera_faults(FindingCollector& list);
 
 /// Returns true if assess_camera_faults() reports camera `c` as moved. Other checks do
 /// not report it again.

@@ -21,7 +21,7 @@ double poor_error_m(const CalibrationReport& report) {
   return limits_of(report).error_m[1];
 }
 
-void assess_middle(FindingList& list) {
+void assess_middle(FindingCollector& list) {
   const CalibrationMap& map = list.report.map;
   const std::string heights =
       list.report.has_floor
@@ -69,7 +69,7 @@ std::string side_of(const glm::dvec3& from, const glm::dvec3& to) {
   return way.z > 0.0 ? " towards +z" : " towards -z";
 }
 
-void assess_volume(FindingList& list) {
+void assess_volume(FindingCollector& list) {
   const CalibrationMap& map = list.report.map;
   if (!map.middle_error_m) return;
   const double limit = std::max(fair_error_m(list.report), 3.0 * *map.middle_error_m);
@@ -121,7 +121,7 @@ void assess_volume(FindingList& list) {
 
 /// Compares even and odd frames. Differences within the sigma are part of the expected
 /// error, which considers that a distant camera with a longer lens has the same image.
-void assess_halves(FindingList& list, std::size_t c, double apart_m) {
+void assess_halves(FindingCollector& list, std::size_t c, double apart_m) {
   constexpr double kFairRatio = 2.0;
   constexpr double kPoorRatio = 4.0;
   // The error of each half is sqrt(2) times that of the whole, their difference another
@@ -147,7 +147,7 @@ void assess_halves(FindingList& list, std::size_t c, double apart_m) {
 }
 
 /// Compares the first half of the recording with the second.
-void assess_halves_in_time(FindingList& list, std::size_t c) {
+void assess_halves_in_time(FindingCollector& list, std::size_t c) {
   const CrossValidation& check = *list.report.rig.cross_validation;
   if (c >= check.time_apart_m.size() || !(check.time_expected_m[c] > 0.0)) return;
   constexpr double kFairRatio = 2.0;
@@ -171,7 +171,7 @@ void assess_halves_in_time(FindingList& list, std::size_t c) {
                " was shown, and show it to every camera early and late");
 }
 
-void assess_held_out(FindingList& list) {
+void assess_held_out(FindingCollector& list) {
   const auto& check = list.report.rig.cross_validation;
   if (!check) return;
   if (check->held_out_rms_px > 1.5 * check->seen_rms_px && check->held_out_rms_px > 0.3) {
@@ -221,7 +221,7 @@ void assess_held_out(FindingList& list) {
 
 }  // namespace
 
-void assess_point_error(FindingList& list) {
+void assess_point_error(FindingCollector& list) {
   assess_middle(list);
   assess_volume(list);
   assess_held_out(list);

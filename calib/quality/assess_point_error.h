@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "calib/quality/finding_list.h"
+#include "calib/quality/finding_collector.h"
 
 namespace marey::calib {
 
@@ -15,6 +15,6 @@ namespace marey::calib {
 /// positions from even and odd frames, and from the first and the second half of the
 /// recording (above twice the expected distance). Preconditions: as assess_calibration();
 /// the report's map is computed.
-void assess_point_error(FindingList& list);
+void assess_point_error(FindingCollector& list);
 
 }  // namespace marey::calib

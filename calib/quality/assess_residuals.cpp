@@ -42,7 +42,7 @@ std::optional<double> others_px(const CalibrationReport& report, std::size_t c) 
   return median(std::move(others));
 }
 
-void assess_level(FindingList& list, std::size_t c) {
+void assess_level(FindingCollector& list, std::size_t c) {
   const CameraMeasures& camera = list.report.cameras[c];
   const double scale = pixel_scale(list.report.rig.cameras[c]);
   const bool is_poor = camera.inlier_rms_px > kPoorRmsPx * scale ||
@@ -80,7 +80,7 @@ void assess_level(FindingList& list, std::size_t c) {
   }
 }
 
-void assess_outliers(FindingList& list, std::size_t c) {
+void assess_outliers(FindingCollector& list, std::size_t c) {
   const CameraMeasures& camera = list.report.cameras[c];
   const double share = share_of_outliers(list.report, c);
   // Reported with its size in assess_camera_faults.cpp.
@@ -131,7 +131,7 @@ void assess_outliers(FindingList& list, std::size_t c) {
 }
 
 /// Reports frames in which several cameras disagree with the board's pose.
-void assess_frames(FindingList& list) {
+void assess_frames(FindingCollector& list) {
   std::map<int, std::set<int>> cameras;
   std::map<int, int> left_out;
   int all = 0;
@@ -155,7 +155,7 @@ void assess_frames(FindingList& list) {
   }
 }
 
-void assess_lag(FindingList& list, std::size_t c) {
+void assess_lag(FindingCollector& list, std::size_t c) {
   const CameraMeasures& camera = list.report.cameras[c];
   if (!has_significant_lag(list.report, c)) return;
   const double ms =
@@ -182,7 +182,7 @@ void assess_lag(FindingList& list, std::size_t c) {
       .measured(std::abs(ms), std::nullopt, "ms");
 }
 
-void assess_pattern(FindingList& list, std::size_t c) {
+void assess_pattern(FindingCollector& list, std::size_t c) {
   const CameraMeasures& camera = list.report.cameras[c];
   const double scale = pixel_scale(list.report.rig.cameras[c]);
   if (camera.pattern_px < kFairPatternPx * scale ||
@@ -203,7 +203,7 @@ void assess_pattern(FindingList& list, std::size_t c) {
       .measured(camera.pattern_px, kFairPatternPx * scale, "px");
 }
 
-void assess_floor(FindingList& list, std::size_t c) {
+void assess_floor(FindingCollector& list, std::size_t c) {
   const CameraMeasures& camera = list.report.cameras[c];
   const double scale = pixel_scale(list.report.rig.cameras[c]);
   if (!camera.floor_median_px || *camera.floor_median_px < 1.5 * scale ||
@@ -238,7 +238,7 @@ void assess_floor(FindingList& list, std::size_t c) {
 }
 
 /// Reports an implausible floor. Cameras and a waved board must be above it.
-void assess_ground(FindingList& list) {
+void assess_ground(FindingCollector& list) {
   constexpr double kBelow_m = 0.3;
   if (!list.report.board_on_floor) return;
   std::vector<double> heights_m;
@@ -282,7 +282,7 @@ void assess_ground(FindingList& list) {
   }
 }
 
-void assess_warp(FindingList& list) {
+void assess_warp(FindingCollector& list) {
   if (!list.report.rig.warp_m) return;
   double max_m = 0.0;
   for (const double rise_m : *list.report.rig.warp_m) {
@@ -309,7 +309,7 @@ bool has_significant_lag(const CalibrationReport& report, std::size_t c) {
          lag->explained_px > kFairPatternPx * pixel_scale(report.rig.cameras[c]);
 }
 
-void assess_residuals(FindingList& list) {
+void assess_residuals(FindingCollector& list) {
   for (std::size_t c = 0; c < list.report.cameras.size(); ++c) {
     assess_level(list, c);
     assess_outliers(list, c);

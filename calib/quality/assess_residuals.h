@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "calib/quality/finding_list.h"
+#include "calib/quality/finding_collector.h"
 
 namespace marey::calib {
 
@@ -14,7 +14,7 @@ namespace marey::calib {
 /// For the session: single frames with half of all outliers, a floor more than 0.3 m
 /// above a camera or the waved board (poor) or seen by one camera only (fair), and a bent
 /// board (note, from 1 mm). Pixels as in pixel_scale().
-void assess_residuals(FindingList& list);
+void assess_residuals(FindingCollector& list);
 
 /// Returns true if the errors of camera `c` follow the motion of the target by a
 /// significant lag, later or earlier than the other cameras: more than 6 sigmas, and more

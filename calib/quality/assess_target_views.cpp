@@ -24,7 +24,7 @@ constexpr double kShownHalf = 0.4;
 // degrees, perspective separates them (Sturm and Maybank 1999 for the degenerate case).
 constexpr double kFairTilt_rad = 15.0 / kDegreesPerRadian;
 
-void assess_coverage(FindingList& list, std::size_t c) {
+void assess_coverage(FindingCollector& list, std::size_t c) {
   const CameraMeasures& camera = list.report.cameras[c];
   const CameraQuality& quality = list.report.rig.quality[c];
   const std::string target = list.target();
@@ -70,7 +70,7 @@ void assess_coverage(FindingList& list, std::size_t c) {
   }
 }
 
-void assess_camera(FindingList& list, std::size_t c) {
+void assess_camera(FindingCollector& list, std::size_t c) {
   const CameraMeasures& camera = list.report.cameras[c];
   const std::string target = list.target();
   if (camera.instants < kFairViews) {
@@ -118,7 +118,7 @@ void assess_camera(FindingList& list, std::size_t c) {
 
 /// Computes the spanning tree of the strongest links between cameras (Kruskal 1956) and
 /// reports its weak links.
-void assess_shared(FindingList& list) {
+void assess_shared(FindingCollector& list) {
   const std::size_t count = list.report.rig.cameras.size();
   const std::vector<int>& shared = list.report.rig.shared_views;
   if (shared.size() != count * count) return;
@@ -161,7 +161,7 @@ void assess_shared(FindingList& list) {
 
 }  // namespace
 
-void assess_target_views(FindingList& list) {
+void assess_target_views(FindingCollector& list) {
   for (std::size_t c = 0; c < list.report.cameras.size(); ++c) assess_camera(list, c);
   assess_shared(list);
 }

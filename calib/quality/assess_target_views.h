@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "calib/quality/finding_list.h"
+#include "calib/quality/finding_collector.h"
 
 namespace marey::calib {
 
@@ -12,6 +12,6 @@ namespace marey::calib {
 /// half); the 90 % quantile of the board's tilt (fair below 15 degrees; boards only). For
 /// pairs of cameras on the strongest spanning tree of shared views: fewer than
 /// kFairShared instants (fair).
-void assess_target_views(FindingList& list);
+void assess_target_views(FindingCollector& list);
 
 }  // namespace marey::calib

@@ -21,7 +21,7 @@ constexpr double kSignificant = 3.0;
 constexpr double kMaxReadout_s = 0.07;
 
 /// A sensor finishes its last row before its next image begins.
-void assess_line_delay(FindingList& list, std::size_t c) {
+void assess_line_delay(FindingCollector& list, std::size_t c) {
   const SolvedClock& clock = list.report.rig.clocks[c];
   const double sigma_s = clock.line_delay_sigma_s;
   if (!(sigma_s > 0.0) || !(list.report.rate_hz > 0.0)) return;
@@ -61,7 +61,7 @@ void assess_line_delay(FindingList& list, std::size_t c) {
   }
 }
 
-void assess_drift(FindingList& list, std::size_t c) {
+void assess_drift(FindingCollector& list, std::size_t c) {
   const SolvedClock& clock = list.report.rig.clocks[c];
   if (!(clock.drift_sigma > 0.0)) return;
   const double significant_drift =
@@ -77,7 +77,7 @@ void assess_drift(FindingList& list, std::size_t c) {
            "video's frame times");
 }
 
-void assess_slip(FindingList& list, std::size_t c) {
+void assess_slip(FindingCollector& list, std::size_t c) {
   const auto& slip = list.report.cameras[c].slip;
   const double scale = pixel_scale(list.report.rig.cameras[c]);
   if (!slip || slip->moved_px < 0.3 * scale || seems_moved(list.report, c)) return;
@@ -102,7 +102,7 @@ void assess_slip(FindingList& list, std::size_t c) {
 
 }  // namespace
 
-void assess_timing(FindingList& list) {
+void assess_timing(FindingCollector& list) {
   for (std::size_t c = 0; c < list.report.cameras.size(); ++c) {
     if (c < list.report.rig.clocks.size()) {
       assess_line_delay(list, c);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "calib/quality/finding_list.h"
+#include "calib/quality/finding_collector.h"
 
 namespace marey::calib {
 
@@ -12,6 +12,6 @@ namespace marey::calib {
 /// changes during the recording, by 0.3 px of the target's motion (poor: 1 px), unless
 /// the camera is reported as moved. No finding for clocks that were not solved for (sigma
 /// 0).
-void assess_timing(FindingList& list);
+void assess_timing(FindingCollector& list);
 
 }  // namespace marey::calib

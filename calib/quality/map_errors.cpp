@@ -18,7 +18,7 @@ namespace marey::calib {
 namespace {
 
 /// Returns the positions of the moving target's middle, once per instant.
-std::vector<glm::dvec3> places_of(const CalibrationReport& report) {
+std::vector<glm::dvec3> error_places(const CalibrationReport& report) {
   std::map<std::pair<int, int>, glm::dvec3> places;
   const glm::dvec3 middle =
       report.extent ? 0.5 * (report.extent->min_in_board + report.extent->max_in_board)
@@ -118,7 +118,7 @@ std::optional<double> error_at(const CalibrationReport& report,
 
 CalibrationMap map_errors(const CalibrationReport& report) {
   CalibrationMap map;
-  const std::vector<glm::dvec3> places = places_of(report);
+  const std::vector<glm::dvec3> places = error_places(report);
   set_grid(report, places, map);
   set_heights(report, places, map);
   const auto* covariance =

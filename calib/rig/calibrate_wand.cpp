@@ -223,7 +223,7 @@ Result<WandCalibration> calibrate_wand(std::span<const std::string> names,
                      "volume and turn it");
   }
   RigModel& model = solved->model;
-  move_world(world_from_upright_camera() * inverse(model.cameras[0].world_from_camera),
+  move_model(world_from_upright_camera() * inverse(model.cameras[0].world_from_camera),
              model,
              *solved->uncertainty);
   WandCalibration out = to_calibration(names, model, *solved->uncertainty);

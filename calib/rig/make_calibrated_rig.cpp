@@ -153,7 +153,7 @@ void turn_covariance(const glm::dquat& new_from_old, RigCovariance& covariance) 
   values = turned;
 }
 
-void move_world(const RigidTransform& new_from_world,
+void move_model(const RigidTransform& new_from_world,
                 RigModel& model,
                 RigUncertainty& uncertainty) {
   for (RigCamera& camera : model.cameras) {

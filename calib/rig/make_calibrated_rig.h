@@ -25,7 +25,7 @@ void turn_covariance(const glm::dquat& new_from_old, RigCovariance& covariance);
 
 /// Transforms the model to a new world: applies `new_from_world` to cameras, targets and
 /// the covariance.
-void move_world(const RigidTransform& new_from_world,
+void move_model(const RigidTransform& new_from_world,
                 RigModel& model,
                 RigUncertainty& uncertainty);
 

@@ -225,7 +225,7 @@ void add_lengths(const BodyModel& model, const Lengths& usual, SubjectSystem& ou
   }
 }
 
-void add_hinges(const BodyFrame& body, SubjectSystem& out) {
+void add_hinges(const BodyConstants& body, SubjectSystem& out) {
   const auto add = [&](int column, double value, const Usual& usual) {
     const double weight = 1.0 / (usual.sigma * usual.sigma);
     const double off = value - usual.value;

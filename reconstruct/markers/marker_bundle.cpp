@@ -22,7 +22,7 @@ namespace {
 struct MarkerResidual {
   HumanBone bone;
   std::vector<PoseParameter> parameters;
-  BodyFrame body;
+  BodyConstants body;
   Eigen::Vector3d p_in_world;
   double sigma_m;
 

@@ -26,7 +26,7 @@ struct ModelMarker {
 
 struct MarkerModel {
   Lengths lengths{};
-  BodyFrame body;
+  BodyConstants body;
   /// Markers on wrists measure the rotation of a forearm.
   TwistPriors twists{0.15, 1.2, 0.08};
   std::vector<ModelMarker> markers;

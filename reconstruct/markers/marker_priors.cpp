@@ -16,7 +16,7 @@ std::optional<MarkerPlacePrior> on_measured_pelvis(
     const Landmark& landmark,
     double stature_m,
     const std::optional<HipRegression>& hips,
-    const BodyFrame& frame) {
+    const BodyConstants& frame) {
   if (!hips) return std::nullopt;
   const double side = landmark.p_in_segment_per_stature.x > 0.0   ? 1.0
                       : landmark.p_in_segment_per_stature.x < 0.0 ? -1.0
@@ -41,7 +41,7 @@ MarkerPlacePrior landmark_prior(const Landmark& landmark,
                                 double stature_m,
                                 const Proportions& average,
                                 const std::optional<HipRegression>& hips,
-                                const BodyFrame& frame) {
+                                const BodyConstants& frame) {
   if (const auto measured = on_measured_pelvis(landmark, stature_m, hips, frame)) {
     return *measured;
   }

@@ -19,6 +19,6 @@ namespace marey::reconstruct {
                                               double stature_m,
                                               const Proportions& average,
                                               const std::optional<HipRegression>& hips,
-                                              const BodyFrame& frame);
+                                              const BodyConstants& frame);
 
 }  // namespace marey::reconstruct

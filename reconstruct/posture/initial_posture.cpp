@@ -151,7 +151,7 @@ void set_trunk(const Found& found, const Posture& fallback, Posture& posture) {
 void set_shoulder(bool left,
                   const Found& found,
                   const Lengths& lengths,
-                  const BodyFrame& body,
+                  const BodyConstants& body,
                   const Posture& fallback,
                   Posture& posture) {
   const PoseParameter parameter =
@@ -177,7 +177,7 @@ void set_shoulder(bool left,
 
 Posture posture_from_segments(const Found& found,
                               const Lengths& lengths,
-                              const BodyFrame& body,
+                              const BodyConstants& body,
                               const Posture& fallback) {
   Posture posture = fallback;
   const auto hips = find(found, B::kHips);
@@ -201,7 +201,7 @@ Posture posture_from_segments(const Found& found,
 Posture posture_from_segments(
     const std::map<HumanBone, RigidTransform>& world_from_segment,
     const Lengths& lengths,
-    const BodyFrame& body,
+    const BodyConstants& body,
     const Posture& fallback) {
   FoundSegments found;
   for (const auto& [bone, frame] : world_from_segment) found[index(bone)] = frame;

@@ -21,14 +21,14 @@ namespace marey::reconstruct {
 [[nodiscard]] Posture posture_from_segments(
     const std::map<HumanBone, RigidTransform>& world_from_segment,
     const Lengths& lengths,
-    const BodyFrame& body,
+    const BodyConstants& body,
     const Posture& fallback);
 
 /// Computes the same from one entry per bone. Does not allocate.
 using FoundSegments = std::array<std::optional<RigidTransform>, kHumanBoneCount>;
 [[nodiscard]] Posture posture_from_segments(const FoundSegments& world_from_segment,
                                             const Lengths& lengths,
-                                            const BodyFrame& body,
+                                            const BodyConstants& body,
                                             const Posture& fallback);
 
 /// Extrapolates the posture by one frame; every block moves at `share` of its speed.

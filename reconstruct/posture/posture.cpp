@@ -130,7 +130,7 @@ std::vector<PoseParameter> parameters_of(HumanBone bone) {
 }
 
 Proportions to_proportions(const Lengths& lengths,
-                           const BodyFrame& frame,
+                           const BodyConstants& frame,
                            const Proportions& like) {
   Proportions p = like;
   for (const LengthRow& row : length_rows()) p[row.bone] = glm::dvec3(0.0);
@@ -160,12 +160,12 @@ std::optional<Length> length_of(HumanBone bone) {
   return std::nullopt;
 }
 
-BodyFrame frame_of(const Proportions& proportions) {
+BodyConstants frame_of(const Proportions& proportions) {
   return {-proportions[B::kLeftUpperLeg].y, {}};
 }
 
-BodyFrame frame_of(const Body& body) {
-  BodyFrame frame = frame_of(body.proportions);
+BodyConstants frame_of(const Body& body) {
+  BodyConstants frame = frame_of(body.proportions);
   frame.hinges = body.hinges;
   return frame;
 }
@@ -173,7 +173,7 @@ BodyFrame frame_of(const Body& body) {
 RigidTransform world_from_bone(HumanBone bone,
                                const Posture& posture,
                                const Lengths& lengths,
-                               const BodyFrame& body) {
+                               const BodyConstants& body) {
   std::array<const double*, kPoseParameterCount> blocks{};
   for (const PoseParameter parameter : kAllPoseParameters)
     blocks[index(parameter)] = posture.block(parameter);
@@ -197,7 +197,7 @@ void copy_limb(std::size_t limb, const Posture& from, Posture& to) {
 Pose to_pose(const Posture& posture,
              const Skeleton& skeleton,
              const Lengths& lengths,
-             const BodyFrame& body) {
+             const BodyConstants& body) {
   std::array<glm::dquat, kHumanBoneCount> world_from_joint{};
   glm::dvec3 root(0.0);
   for (const HumanBone bone : human_bones()) {

@@ -51,7 +51,7 @@ struct Posture {
 /// Constants of a body that do not depend on the posture, in addition to lengths: the
 /// height of the hips' own joint above the hip centres, which is a definition, and the
 /// tilt of each limb's hinge.
-struct BodyFrame {
+struct BodyConstants {
   double hips_above_hip_centres_m = 0.0;
   std::array<HingeShape, 4> hinges{};  ///< In the order of human_limbs().
 };
@@ -59,15 +59,15 @@ struct BodyFrame {
 /// Converts lengths to rest offsets and back. `like` provides the offsets that lengths do
 /// not determine: toes, tips.
 [[nodiscard]] Proportions to_proportions(const Lengths& lengths,
-                                         const BodyFrame& frame,
+                                         const BodyConstants& frame,
                                          const Proportions& like);
 [[nodiscard]] Lengths lengths_of(const Proportions& proportions);
 /// Returns the length that is the distance of a bone's joint from its parent's; nullopt
 /// for the hips, and for distances that the fit does not estimate.
 [[nodiscard]] std::optional<Length> length_of(HumanBone bone);
-[[nodiscard]] BodyFrame frame_of(const Proportions& proportions);
+[[nodiscard]] BodyConstants frame_of(const Proportions& proportions);
 /// Returns the frame with the body's hinges; those of proportions alone are straight.
-[[nodiscard]] BodyFrame frame_of(const Body& body);
+[[nodiscard]] BodyConstants frame_of(const Body& body);
 
 /// A bone's frame in the world, for the solver's scalar type.
 template <class T>
@@ -162,7 +162,7 @@ template <class T, class L>
 BoneFrame<T> bone_frame(HumanBone bone,
                         std::span<const T* const, kPoseParameterCount> blocks,
                         const L* lengths,
-                        const BodyFrame& body) {
+                        const BodyConstants& body) {
   using B = HumanBone;
   using Quaternion = Eigen::Quaternion<T>;
   using detail::Vec3;
@@ -227,7 +227,7 @@ BoneFrame<T> bone_frame(HumanBone bone,
 [[nodiscard]] RigidTransform world_from_bone(HumanBone bone,
                                              const Posture& posture,
                                              const Lengths& lengths,
-                                             const BodyFrame& body);
+                                             const BodyConstants& body);
 
 /// Copies the parameters of a limb, in the order of human_limbs().
 void copy_limb(std::size_t limb, const Posture& from, Posture& to);
@@ -236,6 +236,6 @@ void copy_limb(std::size_t limb, const Posture& from, Posture& to);
 [[nodiscard]] Pose to_pose(const Posture& posture,
                            const Skeleton& skeleton,
                            const Lengths& lengths,
-                           const BodyFrame& body);
+                           const BodyConstants& body);
 
 }  // namespace marey::reconstruct

@@ -56,7 +56,7 @@ HalfwayDerivative halfway_derivative(const Quaterniond& lower, const Quaterniond
 
 void UnfoldedPosture::unfold(const Posture& posture,
                              const Lengths& lengths,
-                             const BodyFrame& body) {
+                             const BodyConstants& body) {
   unfold_trunk(posture, lengths);
   const Bone& hips = bones_[index(B::kHips)];
   const Bone& thorax = bones_[index(B::kUpperChest)];

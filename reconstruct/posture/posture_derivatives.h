@@ -32,7 +32,7 @@ struct SparseDerivative {
 class UnfoldedPosture {
  public:
   /// Computes all frames. Some 2 microseconds. No allocation.
-  void unfold(const Posture& posture, const Lengths& lengths, const BodyFrame& body);
+  void unfold(const Posture& posture, const Lengths& lengths, const BodyConstants& body);
 
   [[nodiscard]] const Eigen::Matrix3d& rotation(HumanBone bone) const {
     return bones_[index(bone)].rotation;

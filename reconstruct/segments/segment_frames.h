@@ -17,7 +17,7 @@ namespace marey::reconstruct {
 
 struct SegmentFrames {
   Lengths lengths{};
-  BodyFrame body;
+  BodyConstants body;
   std::map<HumanBone, RigidTransform> segment_from_cluster;
 };
 

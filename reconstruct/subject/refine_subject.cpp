@@ -32,7 +32,7 @@ constexpr double kMedianSquare = 7.344;
 // A plate with a larger slip is not fixed. [m]
 constexpr double kMaxSlip_m = 0.02;
 
-using Places = std::map<std::size_t, RigidTransform>;
+using GuessedPoses = std::map<std::size_t, RigidTransform>;
 
 bool is_extremity(HumanBone bone) {
   return std::any_of(human_limbs().begin(), human_limbs().end(), [&](const auto& limb) {
@@ -41,8 +41,8 @@ bool is_extremity(HumanBone bone) {
 }
 
 /// Removes the extremities' tags from the model; returns their places.
-Places take_extremities(SubjectBundle& bundle) {
-  Places taken;
+GuessedPoses take_extremities(SubjectBundle& bundle) {
+  GuessedPoses taken;
   for (std::size_t tag = 0; tag < bundle.model.tags.size(); ++tag) {
     if (!is_extremity(bundle.model.bone(tag))) continue;
     if (const RigidTransform* place = bundle.model.place(tag)) taken[tag] = *place;
@@ -140,7 +140,7 @@ std::set<std::size_t> take_unexplained(SubjectBundle& bundle,
 }
 
 void place_extremities(std::span<const Camera> cameras,
-                       const Places& guesses,
+                       const GuessedPoses& guesses,
                        SubjectBundle& bundle,
                        SubjectEvidence& evidence) {
   for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) {
@@ -274,7 +274,7 @@ bool refine_subject(std::span<const Camera> cameras,
                     SubjectBundle& bundle,
                     SubjectEvidence& evidence) {
   bundle.prior_weight = variance_scale(bundle);
-  const Places guesses = take_extremities(bundle);
+  const GuessedPoses guesses = take_extremities(bundle);
   if (!refine_coarse_to_fine(bundle, cameras)) return false;
   place_on_body(bundle, cameras);
   if (!refine_rounds(bundle, cameras, 2)) return false;

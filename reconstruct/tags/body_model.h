@@ -20,7 +20,7 @@ namespace marey::reconstruct {
 
 struct BodyModel {
   Lengths lengths{};
-  BodyFrame body;
+  BodyConstants body;
   std::vector<TagOnSegment> tags;
   /// Place of each tag, by position in `tags`; a tag without a place is not used.
   std::map<std::size_t, RigidTransform> segment_from_tag;

@@ -47,7 +47,7 @@ class TagCornerCost final : public ceres::CostFunction {
   HumanBone bone_;
   std::vector<PoseParameter> parameters_;
   Lengths lengths_;
-  BodyFrame body_;
+  BodyConstants body_;
   TagSight sight_;
   double sigma_px_;
   std::array<glm::dvec2, 4> corners_px_;

@@ -31,7 +31,7 @@ struct ModelTag {
 
 struct TagModel {
   Lengths lengths{};
-  BodyFrame body;
+  BodyConstants body;
   TwistPriors twists;
   std::vector<ModelTag> tags;  ///< Ascending ids.
   std::vector<Camera> cameras;

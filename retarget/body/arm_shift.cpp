@@ -89,7 +89,7 @@ ArmPlaces shifted_places(const LimbMap& arm,
   return out;
 }
 
-ArmPlaces places_of(const LimbMap& arm, std::span<const RigidTransform> joints) {
+ArmPlaces arm_places(const LimbMap& arm, std::span<const RigidTransform> joints) {
   return {joints[index(arm.upper)].translation,
           joints[index(arm.lower)].translation,
           joints[index(arm.end)].translation};
@@ -106,7 +106,7 @@ Arms::Arms(const PosedFrames& frames, const BodyMap& map) : frames_(&frames), ma
 }
 
 ArmPlaces Arms::places(std::size_t t, int side) const {
-  return places_of(limb(side), (*frames_)[t]);
+  return arm_places(limb(side), (*frames_)[t]);
 }
 
 NormalizedLimb Arms::shifted_limb(std::size_t t, int side, const ArmShift& shift) const {

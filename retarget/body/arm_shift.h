@@ -65,8 +65,8 @@ bool aim_arm(const glm::dvec3& wrist_from_shoulder_m,
                                        const NormalizedLimb& limb,
                                        const ArmShift& shift);
 /// Returns the joint positions of an arm of a posed body.
-[[nodiscard]] ArmPlaces places_of(const LimbMap& arm,
-                                  std::span<const RigidTransform> world_from_joint);
+[[nodiscard]] ArmPlaces arm_places(const LimbMap& arm,
+                                   std::span<const RigidTransform> world_from_joint);
 
 /// The arms of a motion, and their positions when shifted.
 class Arms {

@@ -27,11 +27,11 @@ constexpr double kNearFront = 0.978;  // Cosine of 12 degrees.
 constexpr std::string_view kSetInMap =
     "set it in a bone map (marey inspect FILE --write-map writes one)";
 
-Places rest_places(const SkeletonTree& tree, const FoundBones& found) {
-  return places_of(found, [&](JointIndex joint) { return tree.place(joint); });
+BodyPlaces rest_places(const SkeletonTree& tree, const FoundBones& found) {
+  return body_places(found, [&](JointIndex joint) { return tree.place(joint); });
 }
 
-bool stands(const Places& p) {
+bool stands(const BodyPlaces& p) {
   const glm::dvec3 up = unit_of(p.mid_hip() - p.mid_foot());
   const glm::dvec3 left = unit_of(p.hip[0] - p.foot[0]);
   const glm::dvec3 right = unit_of(p.hip[1] - p.foot[1]);
@@ -47,7 +47,7 @@ bool stands(const Places& p) {
 /// back.
 std::optional<JointIndex> front_foot(const SkeletonTree& tree,
                                      const FoundBones& found,
-                                     const Places& p) {
+                                     const BodyPlaces& p) {
   const auto left = found.joint(B::kLeftHand);
   const auto right = found.joint(B::kRightHand);
   const auto arm = found.joint(B::kLeftUpperArm);
@@ -63,7 +63,9 @@ std::optional<JointIndex> front_foot(const SkeletonTree& tree,
   return low && level ? left : std::nullopt;
 }
 
-Status check_stands(const SkeletonTree& tree, const FoundBones& found, const Places& p) {
+Status check_stands(const SkeletonTree& tree,
+                    const FoundBones& found,
+                    const BodyPlaces& p) {
   if (const auto paw = front_foot(tree, found, p)) {
     return bad_input("skeleton",
                      "the body stands on four legs: " + tree.quoted(*paw) +
@@ -161,7 +163,7 @@ Result<glm::dvec3> find_front(const SkeletonTree& tree,
   const bool by_shape =
       found.bones[index(B::kLeftUpperLeg)]->evidence == BoneEvidence::kShape;
   const auto left_axis = [&] {
-    const Places p = rest_places(tree, found);
+    const BodyPlaces p = rest_places(tree, found);
     const glm::dvec3 across = p.hip[0] - p.hip[1];
     return unit_of(across - up * glm::dot(across, up));
   };
@@ -223,7 +225,7 @@ double stature(const SkeletonTree& tree, const FoundBones& found) {
   }
   const auto head = found.joint(B::kHead);
   if (!head) return legs / 0.491;
-  const Places p = rest_places(tree, found);
+  const BodyPlaces p = rest_places(tree, found);
   JointIndex joint = *head;
   double trunk = 0.0;
   const JointIndex hips = *found.joint(B::kHips);
@@ -292,7 +294,7 @@ bool stands_at_rest(const Skeleton& skeleton, const FoundBones& found) {
 
 double asymmetry(const Skeleton& skeleton, const FoundBones& found) {
   const SkeletonTree tree(skeleton);
-  const Places p = rest_places(tree, found);
+  const BodyPlaces p = rest_places(tree, found);
   const glm::dvec3 left = unit_of(p.hip[0] - p.hip[1]);
   const double leg = glm::distance(p.hip[0], p.foot[0]);
   double sum = 0.0;
@@ -315,7 +317,7 @@ Result<BodyFrame> find_body_frame(const Skeleton& skeleton,
                                   const BoneMap& overrides,
                                   FoundBones& found) {
   const SkeletonTree tree(skeleton);
-  const Places p = rest_places(tree, found);
+  const BodyPlaces p = rest_places(tree, found);
   if (const Status ok = check_stands(tree, found, p); !ok) return ok.error();
   BodyFrame frame;
   const glm::dvec3 up = unit_of(p.mid_hip() - p.mid_foot());

@@ -14,7 +14,7 @@
 namespace marey::retarget {
 
 /// Joint positions that determine the orientation of a body.
-struct Places {
+struct BodyPlaces {
   std::array<glm::dvec3, 2> hip{};
   std::array<glm::dvec3, 2> foot{};
   glm::dvec3 hips{0.0};
@@ -25,9 +25,9 @@ struct Places {
 };
 
 template <class Place>
-Places places_of(const FoundBones& found, const Place& place) {
+BodyPlaces body_places(const FoundBones& found, const Place& place) {
   using B = HumanBone;
-  Places p;
+  BodyPlaces p;
   p.hip = {place(*found.joint(B::kLeftUpperLeg)), place(*found.joint(B::kRightUpperLeg))};
   p.foot = {place(*found.joint(B::kLeftFoot)), place(*found.joint(B::kRightFoot))};
   p.hips = place(*found.joint(B::kHips));

@@ -68,7 +68,7 @@ class SideMeter {
 
   void add(const Pose& pose) {
     world_from_joints(motion_.skeleton, pose, world_);
-    const Places p = places_of(
+    const BodyPlaces p = body_places(
         found_, [&](JointIndex joint) { return world_[index(joint)].translation; });
     const glm::dvec3 across = unit_of(p.hip[0] - p.hip[1]);
     const glm::dvec3 up = unit_of(p.head.value_or(p.hips) - p.mid_hip());

@@ -18,13 +18,13 @@ namespace {
 
 using B = HumanBone;
 
-Places places_in(const FoundBones& found, std::span<const RigidTransform> world) {
-  return places_of(found,
-                   [&](JointIndex joint) { return world[index(joint)].translation; });
+BodyPlaces places_in(const FoundBones& found, std::span<const RigidTransform> world) {
+  return body_places(found,
+                     [&](JointIndex joint) { return world[index(joint)].translation; });
 }
 
 /// Returns the turn about `up` that makes a body face the direction that most files use.
-glm::dquat facing(const Places& p, const glm::dvec3& up) {
+glm::dquat facing(const BodyPlaces& p, const glm::dvec3& up) {
   const glm::dvec3 usual = up.z > 0.5 ? glm::dvec3(0, -1, 0) : glm::dvec3(0, 0, 1);
   const glm::dvec3 left = p.hip[0] - p.hip[1];
   const glm::dvec3 front = glm::cross(unit_of(left - up * glm::dot(left, up)), up);
@@ -40,7 +40,7 @@ void rest_as_pose(Motion& motion,
                   const glm::dvec3& up,
                   const Pose& pose) {
   Skeleton& skeleton = motion.skeleton;
-  const Places p = places_in(found, world_from_joints(skeleton, pose));
+  const BodyPlaces p = places_in(found, world_from_joints(skeleton, pose));
   const glm::dquat turn = facing(p, up);
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
     skeleton.joints[i].parent_from_joint.rotation = pose.parent_from_joint[i];

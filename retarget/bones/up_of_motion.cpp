@@ -34,7 +34,7 @@ MotionUp up_of_motion(const Motion& motion, const FoundBones& found) {
   std::vector<RigidTransform> world(motion.skeleton.joints.size());
   for (const Pose& pose : motion.poses) {
     world_from_joints(motion.skeleton, pose, world);
-    const Places p = places_of(
+    const BodyPlaces p = body_places(
         found, [&](JointIndex joint) { return world[index(joint)].translation; });
     const glm::dvec3 up = unit_of(p.mid_hip() - p.mid_foot());
     for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {

@@ -21,7 +21,7 @@ Vec vec(const glm::dvec3& v) {
 
 /// One function per type of goal.
 struct Conversion {
-  const Places& places;
+  const GoalPlaces& places;
 
   [[nodiscard]] PointTargets bring_to(const Vec& target) const {
     PointTargets targets;
@@ -73,7 +73,7 @@ struct Conversion {
 
 }  // namespace
 
-PointTargets targets_of(const Goal& goal, const Places& places) {
+PointTargets targets_of(const Goal& goal, const GoalPlaces& places) {
   return std::visit(Conversion{places}, goal);
 }
 

@@ -21,7 +21,7 @@ struct PointTarget {
 };
 
 /// Positions that the goal of a constraint uses.
-struct Places {
+struct GoalPlaces {
   glm::dvec3 p_in_world{0.0};  ///< Constrained point.
   /// Its segment: position of the joint, and rotation from the T-pose.
   RigidTransform world_from_segment;
@@ -59,6 +59,6 @@ inline constexpr double kLever_m = 0.1;
 ///
 /// Pure, allocates nothing. Precondition: a goal that check_constraints() accepts; finite
 /// positions; unit rotations.
-[[nodiscard]] PointTargets targets_of(const Goal& goal, const Places& places);
+[[nodiscard]] PointTargets targets_of(const Goal& goal, const GoalPlaces& places);
 
 }  // namespace marey::retarget

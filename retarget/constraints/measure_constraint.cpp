@@ -52,7 +52,7 @@ bool is_met(const Constraint& constraint, const Shortfall& shortfall) {
 Shortfall ConstraintMeasure::shortfall(std::span<const RigidTransform> world_from_joint,
                                        const glm::dvec3& footprint_in_world) const {
   const RigidTransform& segment = world_from_joint[index(point_.joint)];
-  Places places;
+  GoalPlaces places;
   places.p_in_world = point_.in_world(world_from_joint);
   if (const auto* support = std::get_if<Support>(&goal_)) {
     return {glm::distance(places.p_in_world,

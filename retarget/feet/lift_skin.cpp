@@ -223,7 +223,7 @@ void lift_posture(const Skeleton& body,
   for (int side = 0; side < 2; ++side) {
     const auto s = static_cast<std::size_t>(side);
     if (map.limbs[s] && posture.limbs[s] && lift.wrist_m[s] > kNoLift_m) {
-      const ArmPlaces now = places_of(*map.limbs[s], world_from_joint);
+      const ArmPlaces now = arm_places(*map.limbs[s], world_from_joint);
       posture.limbs[s] = shifted_limb(
           *map.limbs[s], now, *posture.limbs[s], {lift.wrist_m[s] * up, 0.0});
       moved[s] = true;

@@ -15,10 +15,10 @@ namespace marey::retarget {
 namespace {
 
 // Returns the foot over the motion, above a floor at Y = 0.
-std::vector<FootPlace> places_of(const Motion& motion,
-                                 const BodyMap& map,
-                                 std::size_t side,
-                                 double floor_height_m) {
+std::vector<FootPlace> foot_places(const Motion& motion,
+                                   const BodyMap& map,
+                                   std::size_t side,
+                                   double floor_height_m) {
   const JointIndex ankle = map.leg(static_cast<int>(side)).end;
   const auto toes = map.joint_of[index(toes_bone(static_cast<int>(side)))];
   std::vector<FootPlace> out;
@@ -45,7 +45,7 @@ std::array<FloorFoot, 2> plan_feet(const Motion& motion,
   MAREY_ASSERT(motion.rate.hz > 0.0);
   std::array<std::vector<FootPlace>, 2> flat;
   for (std::size_t side = 0; side < 2; ++side) {
-    flat[side] = plan_foot(places_of(motion, map, side, floor_height_m),
+    flat[side] = plan_foot(foot_places(motion, map, side, floor_height_m),
                            contacts.feet[side],
                            map.feet[side],
                            map.leg_length_m,

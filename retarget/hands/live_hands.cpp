@@ -76,8 +76,8 @@ struct LiveScene {
       const auto& to_limb = avatar.map.limbs[i];
       has[i] = from_limb && to_limb && posture.limbs[i];
       if (!has[i]) continue;
-      source_arms[i] = places_of(*from_limb, source.world_from_joint);
-      places[i] = places_of(*to_limb, avatar.world_from_joint);
+      source_arms[i] = arm_places(*from_limb, source.world_from_joint);
+      places[i] = arm_places(*to_limb, avatar.world_from_joint);
       now[i] = places[i];
     }
   }

@@ -16,12 +16,12 @@ Lengths random_lengths(Dice& dice) {
   return lengths;
 }
 
-BodyFrame average_frame() {
+BodyConstants average_frame() {
   return frame_of(average_proportions(1.75));
 }
 
-BodyFrame askew_frame(Dice& dice) {
-  BodyFrame frame = average_frame();
+BodyConstants askew_frame(Dice& dice) {
+  BodyConstants frame = average_frame();
   for (HingeShape& hinge : frame.hinges) {
     hinge = {dice.between(-0.2, 0.2), dice.between(-0.2, 0.2), dice.between(0, 0.02)};
   }

@@ -11,9 +11,9 @@ namespace marey::reconstruct {
 [[nodiscard]] Lengths random_lengths(marey::testing::Dice& dice);
 
 /// Returns the body frame for random_lengths().
-[[nodiscard]] BodyFrame average_frame();
+[[nodiscard]] BodyConstants average_frame();
 /// Returns the same with hinges tilted by up to 0.2 rad.
-[[nodiscard]] BodyFrame askew_frame(marey::testing::Dice& dice);
+[[nodiscard]] BodyConstants askew_frame(marey::testing::Dice& dice);
 
 /// Returns a posture that a body could take: hips anywhere, trunk bent by up to half a
 /// radian per joint, limbs anywhere, elbows and knees bent by 0.3 to 2.3 rad, every bone

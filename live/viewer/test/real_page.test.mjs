@@ -149,7 +149,7 @@ test('live: who walks is seen with its weight and steps, its avatar dragged and 
   const body = join(folder, 'walk', readdirSync(join(folder, 'walk'))
     .find((name) => name.endsWith('.glb') && name !== 'motion.glb') ?? 'motion.glb');
   const address = await serve('live', MAREY_SESSION, '--results', folder, '--play', 'walk',
-    '--loop', '--vmc-deaf', '--progress', 'none', '--avatar', body);
+    '--loop', '--vmc-send-only', '--progress', 'none', '--avatar', body);
   const {page, troubles, close} = await openPage(browser, address);
   await until('a body that is tracked', async () =>
     /tracked/.test(await page.locator('.pill').textContent()));

@@ -71,7 +71,7 @@ class LiveTakesOfThePage : public ::testing::Test {
                                    avatar_.string(),
                                    "--vmc",
                                    "127.0.0.1:9",
-                                   "--vmc-deaf",
+                                   "--vmc-deaf",  // The former name of --vmc-send-only.
                                    "--no-open",
                                    "--json",
                                    "--progress",

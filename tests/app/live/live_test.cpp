@@ -52,7 +52,7 @@ Words played() {
           "--progress",
           "none",
           "--no-page",
-          "--vmc-deaf"};
+          "--vmc-send-only"};
 }
 
 /// Runs `script` in a shell; $0 is the program, $@ are the words.

@@ -78,10 +78,11 @@ TEST(OptionValues, ThatAreNoNumberOrNotFiniteOrAbsurdAreRefusedByEveryCommand) {
 }
 
 TEST(OptionValues, NamedByTheIssueAreRefused) {
-  for (const std::vector<std::string>& words :
-       std::vector<std::vector<std::string>>{{"plan", "--height", "nan"},
-                                             {"repair", "--most-sigma", "nan"},
-                                             {"adapt", "--root-share", "nan"}}) {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"plan", "--height", "nan"},
+           {"repair", "--max-sigma", "nan"},
+           {"repair", "--most-sigma", "nan"},  // Former.
+           {"adapt", "--root-share", "nan"}}) {
     const ProgramRun run = marey(words);
     EXPECT_EQ(run.exit_code, 2) << words.front();
     EXPECT_NE(run.err.find("must be a number"), std::string::npos) << run.err;

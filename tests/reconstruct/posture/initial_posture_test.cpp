@@ -19,7 +19,7 @@ double turn_rad(const glm::dquat& a, const glm::dquat& b) {
 
 std::map<HumanBone, RigidTransform> segments_of(const Posture& posture,
                                                 const Lengths& lengths,
-                                                const BodyFrame& body) {
+                                                const BodyConstants& body) {
   std::map<HumanBone, RigidTransform> segments;
   for (const HumanBone bone : human_bones()) {
     if (solved_segment(bone) != bone) continue;
@@ -30,7 +30,7 @@ std::map<HumanBone, RigidTransform> segments_of(const Posture& posture,
 
 TEST(PostureFromSegments, IsExactWhenTheSegmentsFitTogether) {
   Dice dice(1);
-  const BodyFrame body = average_frame();
+  const BodyConstants body = average_frame();
   for (int run = 0; run < 20; ++run) {
     const Lengths lengths = random_lengths(dice);
     const Posture truth = random_posture(dice);
@@ -53,7 +53,7 @@ TEST(PostureFromSegments, IsExactWhenTheSegmentsFitTogether) {
 TEST(PostureFromSegments, KeepsALimbThatWasNotFoundAgainstItsTrunk) {
   Dice dice(2);
   const Lengths lengths = random_lengths(dice);
-  const BodyFrame body = average_frame();
+  const BodyConstants body = average_frame();
   const Posture before = random_posture(dice);
   auto segments = segments_of(before, lengths, body);
   // The whole body turned and moved; the left leg is not seen.
@@ -74,7 +74,7 @@ TEST(PostureFromSegments, KeepsALimbThatWasNotFoundAgainstItsTrunk) {
 TEST(PostureFromSegments, IsTheFallbackWhenNothingWasFound) {
   Dice dice(3);
   const Lengths lengths = random_lengths(dice);
-  const BodyFrame body = average_frame();
+  const BodyConstants body = average_frame();
   const Posture fallback = random_posture(dice);
   const Posture found = posture_from_segments(FoundSegments{}, lengths, body, fallback);
   for (const HumanBone bone : {HumanBone::kHips,

@@ -21,14 +21,14 @@ constexpr double kExact = 1e-8;
 
 struct Scene {
   Lengths lengths;
-  BodyFrame frame;
+  BodyConstants frame;
   Posture posture;
 };
 
 Scene random_scene(unsigned seed) {
   Dice dice(seed);
   const Lengths lengths = random_lengths(dice);
-  const BodyFrame frame = askew_frame(dice);
+  const BodyConstants frame = askew_frame(dice);
   return {lengths, frame, random_posture(dice)};
 }
 
@@ -116,7 +116,7 @@ TEST(UnfoldedPosture, GivesTheDerivativesByTheBodysShape) {
     const Vector3d p_in_bone(0.05, -0.1, 0.07);
     const auto moved_by = [&](int column, double by, HumanBone bone) {
       Lengths lengths = scene.lengths;
-      BodyFrame frame = scene.frame;
+      BodyConstants frame = scene.frame;
       if (column < kLengthCount) {
         lengths[static_cast<std::size_t>(column)] += by;
       } else {

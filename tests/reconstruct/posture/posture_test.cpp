@@ -49,7 +49,7 @@ TEST(PostureStorage, GivesBackRotations) {
 TEST(ToProportions, IsUndoneByLengthsOf) {
   Dice dice(2);
   const Lengths lengths = random_lengths(dice);
-  const BodyFrame frame = average_frame();
+  const BodyConstants frame = average_frame();
   const Proportions p = to_proportions(lengths, frame, average_proportions(1.75));
   const Lengths back = lengths_of(p);
   for (std::size_t i = 0; i < lengths.size(); ++i) {
@@ -62,7 +62,7 @@ TEST(BoneFrameOfPosture, AgreesWithThePosesForwardKinematics) {
   Dice dice(3);
   for (int run = 0; run < 10; ++run) {
     const Lengths lengths = random_lengths(dice);
-    const BodyFrame frame = average_frame();
+    const BodyConstants frame = average_frame();
     const Skeleton skeleton =
         make_humanoid(to_proportions(lengths, frame, average_proportions(1.75)));
     const Posture posture = random_posture(dice);
@@ -83,7 +83,7 @@ TEST(BoneFrameOfPosture, AgreesWithThePosesForwardKinematics) {
 TEST(BoneFrameOfPosture, ClosesTheTriangleOfEveryLimb) {
   Dice dice(4);
   const Lengths lengths = random_lengths(dice);
-  const BodyFrame frame = average_frame();
+  const BodyConstants frame = average_frame();
   const Posture posture = random_posture(dice);
   for (std::size_t limb = 0; limb < kLimbParameters.size(); ++limb) {
     const LimbParameters& parameters = kLimbParameters[limb];
@@ -126,7 +126,7 @@ TEST(BoneFrameOfPosture, BendsTheSpineHalfWayAtItsMiddle) {
 TEST(SlotsOf, ListsExactlyTheParametersThatMoveTheBone) {
   Dice dice(6);
   const Lengths lengths = random_lengths(dice);
-  const BodyFrame frame = average_frame();
+  const BodyConstants frame = average_frame();
   const Posture posture = random_posture(dice);
   for (const HumanBone bone : human_bones()) {
     if (solved_segment(bone) != bone) continue;
@@ -157,7 +157,7 @@ using Jet = ceres::Jet<double, kPostureStorage>;
 std::array<Jet, 7> jet_frame(HumanBone bone,
                              const Posture& posture,
                              const Lengths& lengths,
-                             const BodyFrame& body) {
+                             const BodyConstants& body) {
   std::array<Jet, kPostureStorage> values;
   for (int i = 0; i < kPostureStorage; ++i) {
     values[static_cast<std::size_t>(i)] =
@@ -181,7 +181,7 @@ std::array<Jet, 7> jet_frame(HumanBone bone,
 std::array<double, 7> plain_frame(HumanBone bone,
                                   const Posture& posture,
                                   const Lengths& lengths,
-                                  const BodyFrame& body) {
+                                  const BodyConstants& body) {
   std::array<const double*, kPoseParameterCount> blocks{};
   for (const PoseParameter parameter : kAllPoseParameters)
     blocks[index(parameter)] = posture.block(parameter);
@@ -198,7 +198,7 @@ std::array<double, 7> plain_frame(HumanBone bone,
 TEST(BoneFrameOfPosture, HasTheDerivativesThatFiniteDifferencesShow) {
   Dice dice(7);
   const Lengths lengths = random_lengths(dice);
-  const BodyFrame body = average_frame();
+  const BodyConstants body = average_frame();
   const Posture posture = random_posture(dice);
   constexpr double kDifferenceStep = 1e-6;
   for (const HumanBone bone : human_bones()) {

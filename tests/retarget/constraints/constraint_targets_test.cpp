@@ -14,14 +14,14 @@ namespace {
 // A few roundings of numbers of about 1 m.
 constexpr double kRounding_m = 1e-15;
 
-Places time_at(const glm::dvec3& p_in_world) {
-  Places places;
+GoalPlaces time_at(const glm::dvec3& p_in_world) {
+  GoalPlaces places;
   places.p_in_world = p_in_world;
   return places;
 }
 
 /// Returns the one target of a goal that moves the constrained point itself.
-glm::dvec3 target(const Goal& goal, const Places& places) {
+glm::dvec3 target(const Goal& goal, const GoalPlaces& places) {
   const PointTargets targets = targets_of(goal, places);
   EXPECT_EQ(targets.all().size(), 1U);
   EXPECT_EQ(targets.all()[0].p_in_world, places.p_in_world);
@@ -50,7 +50,7 @@ TEST(ConstraintTargets, GoUpFromAPlaceThatHasNoSide) {
 }
 
 TEST(ConstraintTargets, KeepADistanceFromTheOtherPointWhereItIsNow) {
-  Places places = time_at({1, 0, 0});
+  GoalPlaces places = time_at({1, 0, 0});
   places.other_in_world = {3, 0, 0};
   const glm::dvec3 wanted(2.75, 0, 0);
   EXPECT_EQ(target(DistanceToBody{0.25, {"head", {}}}, places), wanted);
@@ -121,7 +121,7 @@ RigidTransform some_segment() {
 // Two levers at their targets define one rotation.
 TEST(ConstraintTargets, DetermineAWholeOrientation) {
   const glm::dquat wanted = glm::normalize(glm::dquat(0.9, 0.1, -0.4, 0.3));
-  Places places = time_at({9, 9, 9});
+  GoalPlaces places = time_at({9, 9, 9});
   places.world_from_segment = some_segment();
   const PointTargets found = targets_of(SegmentOrientation{wanted}, places);
   const auto targets = found.all();
@@ -140,7 +140,7 @@ TEST(ConstraintTargets, DetermineAWholeOrientation) {
 }
 
 TEST(ConstraintTargets, MatchTheLeversOfAnOrientationThatIsMet) {
-  Places places;
+  GoalPlaces places;
   places.world_from_segment = some_segment();
   const Goal goal = SegmentOrientation{places.world_from_segment.rotation};
   const PointTargets found = targets_of(goal, places);
@@ -150,7 +150,7 @@ TEST(ConstraintTargets, MatchTheLeversOfAnOrientationThatIsMet) {
 }
 
 TEST(ConstraintTargets, MatchTheFootprintOfASupport) {
-  Places places = time_at({0, 0.3, 0});
+  GoalPlaces places = time_at({0, 0.3, 0});
   places.footprint_in_world = {0.2, 0.08, 0.1};
   places.footprint_world_from_t_pose = some_segment().rotation;
   const PointTargets as_it_was = targets_of(Support{}, places);

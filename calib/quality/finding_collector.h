@@ -11,19 +11,20 @@
 
 namespace marey::calib {
 
-/// A finding that several cameras may have. It becomes one Finding: assess_calibration()
-/// merges those with equal `cause`, so that ten cameras do not give ten lines.
-struct SharedFinding {
+/// A finding of one camera that other cameras may have, too. assess_calibration() merges
+/// those with equal `cause` into one Finding, so that ten cameras do not give ten lines.
+struct MergeableFinding {
   Finding finding;  ///< Text used when the finding covers one camera.
-  /// The value of each camera: "19 %". Empty: the finding is never shared.
+  /// Name and value of the camera: "left (19 %)". Empty: the finding is never merged.
   std::string figure;
   std::string cause;  ///< Text used when the finding covers several cameras.
 };
 
-/// Collects findings and formats their values.
-struct FindingList {
+/// Collects the findings of a calibration and formats their values. `report` must outlive
+/// the object.
+struct FindingCollector {
   const CalibrationReport& report;
-  std::vector<SharedFinding> found;
+  std::vector<MergeableFinding> found;
 
   /// Returns the finding, valid until the next one is added.
   Finding& add(Severity severity,

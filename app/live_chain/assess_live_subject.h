@@ -20,6 +20,7 @@ namespace marey::app {
 /// side), the residual to the detections (poor above 5 px), the limb lengths relative to
 /// an average person (poor beyond 15 %), and the tags without a position (poor above a
 /// fifth).
-[[nodiscard]] std::vector<Finding> assess_subject(const reconstruct::SubjectFit& fit);
+[[nodiscard]] std::vector<Finding> assess_live_subject(
+    const reconstruct::SubjectFit& fit);
 
 }  // namespace marey::app

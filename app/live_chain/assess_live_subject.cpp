@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live_chain/subject_quality.h"
+#include "app/live_chain/assess_live_subject.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +71,7 @@ std::string in_words(HumanBone bone) {
   return words;
 }
 
-std::vector<Finding> assess_subject(const reconstruct::SubjectFit& fit) {
+std::vector<Finding> assess_live_subject(const reconstruct::SubjectFit& fit) {
   std::vector<Finding> out;
   for (const HumanLimb& limb : human_limbs()) {
     out.push_back(length_of(fit.body, limb.upper, limb.lower));
