@@ -12,8 +12,10 @@
 
 #include "app/convert/convert_motion.h"
 #include "app/motion/neutral.h"
+#include "app/motion/raw_body.h"
 #include "app/shell/option_checks.h"
 #include "core/base/extension.h"
+#include "core/base/input_file.h"
 #include "recordings/markers/marker_file.h"
 
 namespace marey::app {
@@ -75,15 +77,22 @@ Exit run_convert(const ConvertArguments& arguments, Console& console) {
                                   "that is the file to be converted",
                                   "give the result another name"));
   }
+  if (const Status ok = check_input_file(arguments.in); !ok) {
+    const auto folder = no_conversion(arguments.in);
+    return console.fail(folder ? *folder : ok.error());
+  }
   if (const auto error = no_conversion(arguments.in)) return console.fail(*error);
-  if (is_motion(arguments.in)) return convert_motion(arguments, console);
+  if (const Status ok = check_out_file(arguments.out); !ok) {
+    return console.fail(ok.error());
+  }
+  if (is_body_file(arguments.in)) return convert_motion(arguments, console);
   if (arguments.rate_hz || arguments.to_rate_hz || !arguments.skeleton.empty() ||
       !arguments.bvh_dialect.empty() || !arguments.neutral.empty()) {
     return console.fail(
         bad_input(arguments.in.string(),
                   "--rate, --to-rate, --skeleton, --neutral and --bvh-dialect are for "
                   "motions alone",
-                  "leave them out, or give a .bvh, .amc, .npz, .glb, .vrm or .vrma"));
+                  "leave them out, or give a motion: " + body_extensions()));
   }
   recordings::MarkerReadOptions read_as;
   if (!arguments.up.empty()) read_as.up = recordings::axis_of(arguments.up);
@@ -144,7 +153,7 @@ void add_convert_command(CLI::App& app,
   const CLI::Validator unit = one_of({"mm", "cm", "m", "in", "ft"});
   command
       ->add_option(
-          "INPUT", args.in, ".c3d or .trc; .bvh, .amc, .npz, .glb, .vrm or .vrma")
+          "INPUT", args.in, "Markers: .c3d or .trc; motion: " + body_extensions())
       ->required();
   command
       ->add_option("OUTPUT",

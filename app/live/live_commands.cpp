@@ -11,6 +11,7 @@
 #include "app/live/live_takes.h"
 #include "app/live_chain/live_chain.h"
 #include "app/live_chain/live_outputs.h"
+#include "app/motion/raw_body.h"
 #include "app/shell/option_checks.h"
 #include "app/shell/stop_signal.h"
 #include "app/view/view_commands.h"
@@ -183,7 +184,7 @@ void add_live_command(CLI::App& app,
   command
       ->add_option("-a,--avatar",
                    live.avatars,
-                   "Body to retarget to (.glb, .vrm, .bvh); may be repeated")
+                   "Body to retarget to: " + body_extensions() + "; may be repeated")
       ->allow_extra_args(false);
   command
       ->add_option(

@@ -16,6 +16,7 @@
 #include "app/live_chain/open_live_take.h"
 #include "app/shell/option_checks.h"
 #include "app/shell/stop_signal.h"
+#include "core/base/input_file.h"
 
 namespace marey::app {
 namespace {
@@ -110,6 +111,15 @@ Result<Replayed> replay(const ReplayArguments& arguments,
   return found;
 }
 
+Status check_take_folder(const std::filesystem::path& take) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(take, ignored)) return Done{};
+  if (!std::filesystem::exists(take, ignored)) return check_input_file(take);
+  return bad_input(take.string(),
+                   "this is a file, not the folder of a take",
+                   "name the folder that marey live --record made");
+}
+
 void print(const Replayed& found) {
   nlohmann::ordered_json out{{"frames", found.frames}, {"differing", found.differing}};
   out["first_differing"] = found.first_differing
@@ -121,6 +131,9 @@ void print(const Replayed& found) {
 }  // namespace
 
 Exit run_replay(const ReplayArguments& arguments, Console& console) {
+  if (const Status ok = check_take_folder(arguments.take); !ok) {
+    return console.fail(ok.error());
+  }
   const auto opened = open_live_take(arguments.take);
   if (!opened) return console.fail(opened.error());
   if (!opened->take.finished) {

@@ -15,6 +15,7 @@
 #include "app/markers/label_checks.h"
 #include "app/markers/marker_report.h"
 #include "app/markers/trial_checks.h"
+#include "app/motion/raw_body.h"
 #include "app/shell/findings.h"
 #include "app/shell/option_checks.h"
 #include "core/base/stopwatch.h"
@@ -235,9 +236,10 @@ void add_fit_command(CLI::App& app,
                           ->check(between(1.0, 500.0));
   for (CLI::Option* option : {map, person, stature, mass}) option->excludes(subject);
   command
-      ->add_option("-a,--avatar",
-                   args.avatars,
-                   "Body to put the motion on (.glb, .vrm, .bvh); may be repeated")
+      ->add_option(
+          "-a,--avatar",
+          args.avatars,
+          "Body to put the motion on: " + body_extensions() + "; may be repeated")
       // One value per option: the next argument may be a trial.
       ->allow_extra_args(false);
   command->add_option("--up", args.up, "Up axis of the files; default as detected")

@@ -73,6 +73,10 @@ Exit run_repair(const RepairArguments& args, Console& console) {
                                   "the result would replace the file to repair",
                                   "give the result another name"));
   }
+  for (const Status& ok :
+       {check_out_file(args.out), recordings::check_marker_extension(args.out)}) {
+    if (!ok) return console.fail(ok.error());
+  }
   auto read = recordings::read_markers(args.in);
   if (!read) return console.fail(read.error());
   for (const std::string& note : read->notes) {

@@ -5,7 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/motion/motion_files.h"
 #include "app/motion/neutral.h"
+#include "app/motion/raw_body.h"
 #include "app/motion/retarget_files.h"
 #include "app/retarget/retarget_commands.h"
 #include "app/shell/option_checks.h"
@@ -102,25 +104,23 @@ void add_retarget_command(CLI::App& app,
                           RetargetArguments& args,
                           std::function<Exit(Console&)>& chosen) {
   CLI::App* command = app.add_subcommand("retarget", "Put a motion on other bodies");
-  command->add_option("MOTION", args.motion, ".bvh, .amc, .glb, .vrm or .vrma")
-      ->required();
+  command->add_option("MOTION", args.motion, "Motion: " + body_extensions())->required();
   command->add_option(
-      "AVATAR", args.avatars, "Bodies: .glb, .gltf, .vrm or .bvh, one or many");
+      "AVATAR", args.avatars, "Bodies, one or many: " + body_extensions());
   command->add_option("-a,--avatar", args.more_avatars, "A body; may be repeated")
       ->allow_extra_args(false);
   command
       ->add_option("-o,--out",
                    args.out,
-                   "Result: a folder, or for one avatar a .glb, .bvh, .vrma, .npz, .csv "
-                   "or .mot")
+                   "Result: a folder, or for one avatar a file: " + motion_extensions())
       ->required();
   add_body_options(*command, args);
   add_result_options(*command, args);
   command->callback([&] {
     if (args.avatars.empty() && args.more_avatars.empty()) {
       throw RejectedArguments("AVATAR is missing",
-                              "give a body: .glb, .gltf, .vrm or .bvh; marey retarget "
-                              "--help describes the arguments");
+                              "give a body: " + body_extensions() +
+                                  "; marey retarget --help describes the arguments");
     }
     args.options.retarget.adapt_ground = !args.no_ground;
     if (!args.no_hands) args.options.retarget.hands.emplace();

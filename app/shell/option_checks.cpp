@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/shell/word_list.h"
 #include "core/base/assert.h"
 #include "core/base/format_text.h"
 #include "core/base/in_quotes.h"
@@ -99,10 +100,7 @@ CLI::Validator zero_or_between(long low, long high) {
 
 CLI::Validator one_of(std::vector<std::string> words) {
   MAREY_ASSERT(!words.empty());
-  std::string list = words.front();
-  for (std::size_t i = 1; i < words.size(); ++i) {
-    list += (i + 1 == words.size() ? " or " : ", ") + words[i];
-  }
+  const std::string list = or_list(words);
   const auto check = [words = std::move(words), list](const std::string& word) {
     const bool is_one = std::ranges::find(words, word) != words.end();
     return is_one ? std::string() : not_that(list, word);

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/motion/raw_body.h"
 #include "app/shell/option_checks.h"
 #include "app/shell/stop_signal.h"
 #include "app/view/view_page.h"
@@ -142,15 +143,16 @@ void add_view_command(CLI::App& app,
   command
       ->add_option("FILE",
                    args.choice.what,
-                   "What to show: .bvh, .amc, .glb, .gltf, .vrm, .vrma, .c3d, .trc, "
-                   "calibration.toml, "
-                   "a folder of results or a take of marey live")
+                   "Motion (" + body_extensions() +
+                       "), markers (.c3d or .trc), a calibration.toml, a folder of "
+                       "results or a take of marey live")
       ->required();
   command->add_option("--trial", args.choice.trial, "Which trial of a folder of results");
   command
-      ->add_option("-a,--avatar",
-                   args.choice.avatars,
-                   "Body to retarget the motion to (.glb, .vrm, .bvh); may be repeated")
+      ->add_option(
+          "-a,--avatar",
+          args.choice.avatars,
+          "Body to retarget the motion to: " + body_extensions() + "; may be repeated")
       ->allow_extra_args(false);
   command->add_option("-x,--constraints",
                       args.constraints,

@@ -27,6 +27,7 @@ struct Error {
   std::string where;  ///< File, and line or frame: "walk/cam2.mp4: frame 63".
   std::string cause;  ///< "the video ends after 63 of 127 frames".
   std::string next;   ///< "copy the file from the camera again".
+  int os_error = 0;   ///< errno of the operation that failed; 0: none, or not known.
 
   /// One line: "where: cause. Next: next."
   [[nodiscard]] std::string message() const {
