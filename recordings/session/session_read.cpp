@@ -122,9 +122,9 @@ bool SessionReader::has_a_person() {
 }
 
 void SessionReader::read_media() {
-  media_ = session_.file.parent_path();
-  if (root_.has("media")) media_ /= root_.text("media");
-  if (options_.media) media_ = *options_.media;
+  const fs::path base = session_.file.parent_path();
+  media_ =
+      options_.media.value_or(root_.has("media") ? base / root_.text("media") : base);
 }
 
 void SessionReader::read_subject() {
