@@ -114,8 +114,7 @@ bool SessionReader::has_a_person() {
   const std::vector<TomlReader> trials = root_.tables("trial");
   return trials.empty() ||
          std::any_of(trials.begin(), trials.end(), [](TomlReader trial) {
-           if (!trial.has("kind")) return true;
-           const std::string kind = trial.text("kind");
+           const std::string kind = trial.has("kind") ? trial.text("kind") : "";
            return kind != name(TrialKind::kCalibration) &&
                   kind != name(TrialKind::kFloor);
          });
