@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,13 +75,14 @@ ProgramName name_of(const CLI::App& app, const char* called) {
 
 int run(int argc, char** argv) {
   CLI::App app{"marey turns camera-seen markers into clean human motion on any body"};
+  app.formatter(std::make_shared<PlainHelp>());
   app.set_version_flag("--version", std::string("marey ") + kVersion);
   app.require_subcommand(1);
   app.fallthrough();
   Arguments args;
   std::function<Exit(Console&)> chosen;
   app.add_option("--progress", args.progress, "auto, json or none")
-      ->check(CLI::IsMember({"auto", "json", "none"}));
+      ->check(one_of({"auto", "json", "none"}));
   add_session_commands(app, args.session, chosen);
   add_record_command(app, args.record, chosen);
   add_live_command(app, args.live, chosen);
@@ -104,9 +106,9 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    Console(ProgressStyle::kAuto, name_of(app, argv[0]))
-        .fail(usage_error(app, error, {argv, static_cast<std::size_t>(argc)}));
-    return static_cast<int>(Exit::kUsage);
+    return static_cast<int>(
+        Console(ProgressStyle::kAuto, name_of(app, argv[0]))
+            .fail(usage_error(app, error, {argv, static_cast<std::size_t>(argc)})));
   }
   Console console(args.style_of_progress(), name_of(app, argv[0]));
   const Exit exit = chosen(console);

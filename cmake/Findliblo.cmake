@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: The marey authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# liblo: the target liblo::liblo. It brings no CMake package of its own, and its headers
-# do not tell their version.
+# liblo: the target liblo::liblo. It brings no CMake package of its own, and its headers do
+# not contain its version.
 find_path(liblo_INCLUDE_DIR lo/lo.h)
 find_library(liblo_LIBRARY lo)
 mark_as_advanced(liblo_INCLUDE_DIR liblo_LIBRARY)

@@ -8,10 +8,10 @@ include(${CMAKE_CURRENT_LIST_DIR}/marey_unity.cmake)
 # marey_add_module(<name> HEADERS ... SOURCES ... [USES public...] [HIDES private...]
 #                  [READS private...] [PRECOMPILES header...] [ALONE source...])
 #
-# One room. HEADERS are public: each must compile alone (the target
-# all_verify_interface_header_sets tries it) and name no heavy library
-# (tests/layering.cmake). USES is seen by the room's includers, HIDES only by its .cpp files
-# and by the headers that are not listed. READS are hidden libraries of headers alone: a
+# Adds one room. HEADERS are public: each must compile alone (the target
+# all_verify_interface_header_sets checks it) and include no heavy library
+# (tests/layering.cmake). USES are libraries of the public headers; HIDES are libraries of
+# the .cpp files and the private headers only. READS are private header-only libraries: a
 # program that links the installed room does not need them. PRECOMPILES: see
 # marey_precompile(); ALONE: see marey_unite(). The room is installed
 # (cmake/marey_install.cmake).
@@ -33,7 +33,7 @@ endfunction()
 
 # marey_find_package(<package> <version> DEBIAN <package that brings it> [COMPONENTS ...])
 #
-# find_package(), with a next step when it finds nothing.
+# Calls find_package() and, if the package is missing, fails with the next step.
 macro(marey_find_package package version)
   cmake_parse_arguments(MAREY_FIND "" "DEBIAN" "COMPONENTS" ${ARGN})
   find_package(${package} ${version} QUIET COMPONENTS ${MAREY_FIND_COMPONENTS})

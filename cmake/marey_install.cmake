@@ -6,7 +6,7 @@ include(GNUInstallDirs)
 set(MAREY_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/marey)
 set(MAREY_SAMPLE_DIR ${CMAKE_INSTALL_DATADIR}/marey/samples)
 
-# marey_install_module(<target>): the library of a room, and its public headers as
+# marey_install_module(<target>): installs the library of a room, and its public headers as
 # include/marey/ROOM/name.h: includes are written from the top, "ROOM/name.h".
 function(marey_install_module target)
   install(TARGETS ${target} EXPORT marey-targets
@@ -14,8 +14,8 @@ function(marey_install_module target)
     FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/marey)
 endfunction()
 
-# marey_install_program(): the program, the pages that its messages name, and the sample
-# session of `marey demo`, which the program finds by its own path
+# marey_install_program(): installs the program, the pages that its messages name, and the
+# sample session of `marey demo`, which the program finds by its own path
 # (app/shell/sample_session.h).
 function(marey_install_program)
   install(TARGETS marey RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
@@ -25,9 +25,9 @@ function(marey_install_program)
     DESTINATION ${MAREY_SAMPLE_DIR})
 endfunction()
 
-# marey_install_package(): what find_package(marey) and `pkg-config marey` read. Call it
-# after all rooms are added. Neither names the folder of the installation, so that the
-# installed tree can be moved.
+# marey_install_package(): installs the files for find_package(marey) and `pkg-config
+# marey`. Call it after all rooms are added. These files do not contain the folder of the
+# installation, so that the installed tree can be moved.
 function(marey_install_package)
   install(EXPORT marey-targets NAMESPACE marey:: DESTINATION ${MAREY_PACKAGE_DIR})
   configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/marey-config.cmake.in

@@ -7,16 +7,17 @@ if(CMAKE_CXX_COMPILER_LAUNCHER OR CMAKE_CXX_CLANG_TIDY OR MAREY_FUZZ
    OR NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   set(MAREY_PRECOMPILES OFF)
 endif()
-# g++ 12 no longer knows precompiled system headers as such, and warns of what it suspects
-# in std::string (bugs 105329, 105651).
+# g++ 12 does not treat precompiled headers as system headers, and reports false warnings in
+# std::string (bugs 105329, 105651).
 set(MAREY_PRECOMPILED_WARNINGS -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow
                                -Wno-stringop-overread)
 
 # marey_precompile(<target> [<header>...])
 #
-# Compiles what nearly every file of a target includes once: half of a cold build is
-# spent reading the same headers. Not with a compiler cache, which does not know such
-# objects again; such a build is also the check that each file includes what it uses.
+# Precompiles the headers that nearly every file of a target includes: half of a cold build
+# is spent reading the same headers. Does nothing with a compiler cache, which does not
+# support precompiled headers; such a build also checks that each file includes the headers
+# that it uses.
 function(marey_precompile target)
   if(NOT MAREY_PRECOMPILES)
     return()
@@ -30,8 +31,8 @@ function(marey_precompile target)
     ${ARGN})
 endfunction()
 
-# marey_reuse_precompiled(<target> <other>): what marey_precompile(<other> ...) compiled,
-# for a target with the same options.
+# marey_reuse_precompiled(<target> <other>): uses the headers that marey_precompile(<other>
+# ...) compiled for a target with the same options.
 function(marey_reuse_precompiled target other)
   if(NOT MAREY_PRECOMPILES)
     return()

@@ -12,9 +12,9 @@ set(MAREY_UNITY_SIZE 8 CACHE STRING "Sources in one group, about")
 #
 # Compiles the target's sources in groups of about MAREY_UNITY_SIZE, each of one folder:
 # most of a file's time goes into headers that its neighbours include too. Names in unnamed
-# namespaces must therefore be unique within a folder. Sources with compile options of
-# their own stay alone; so do the sources named here, whose templates take 10 seconds or
-# more (tests/tools/slowest_files.py measures them). Call it after these options are set.
+# namespaces must therefore be unique within a folder. Sources with compile options of their
+# own are compiled alone. The sources named here are, too: their templates take 10 seconds
+# or more (tests/tools/slowest_files.py measures them). Call it after these options are set.
 function(marey_unite target)
   if(NOT MAREY_UNITY)
     return()
@@ -53,8 +53,8 @@ function(marey_unite target)
         UNITY_GROUP "${group}_${part}")
     endforeach()
   endforeach()
-  # A class that has a member of an unnamed namespace is suspicious in a header only; g++
-  # takes the united sources for headers.
+  # g++ treats the sources of a group as headers, and warns of classes with a member of an
+  # unnamed namespace, which is a fault in headers only.
   target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()

@@ -41,19 +41,29 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+/// Returns the nearest word. Precondition: `words` not empty.
+std::string_view nearest(std::string_view wrong,
+                         std::span<const std::string_view> words) {
+  return *std::min_element(words.begin(), words.end(), [&](auto a, auto b) {
+    return distance(wrong, a) < distance(wrong, b);
+  });
+}
+
+/// Returns true if at most 40 % of the letters differ.
+bool is_near(std::string_view wrong, std::string_view word) {
+  const std::size_t letters = std::max(wrong.size(), word.size());
+  return 5 * distance(wrong, word) <= 2 * kLetter * letters;
+}
+
 }  // namespace
 
 std::string suggestion(std::string_view wrong, std::span<const std::string_view> words) {
   MAREY_ASSERT(!words.empty());
   wrong = wrong.substr(0, kMaxWordLength);
-  const std::string_view* nearest =
-      &*std::min_element(words.begin(), words.end(), [&](auto a, auto b) {
-        return distance(wrong, a) < distance(wrong, b);
-      });
-  const std::size_t letters = std::max(wrong.size(), nearest->size());
-  if (5 * distance(wrong, *nearest) <= 2 * kLetter * letters) {
+  const std::string_view found = nearest(wrong, words);
+  if (is_near(wrong, found)) {
     return std::string("perhaps you mean \"")
-        .append(nearest->substr(0, kMaxWordLength))
+        .append(found.substr(0, kMaxWordLength))
         .append("\"");
   }
   std::string text = "choose one of ";
@@ -63,6 +73,21 @@ std::string suggestion(std::string_view wrong, std::span<const std::string_view>
         .append("\"");
   }
   return text;
+}
+
+std::optional<std::string_view> meant_word(std::string_view wrong,
+                                           std::span<const std::string_view> words) {
+  if (words.empty()) return std::nullopt;
+  wrong = wrong.substr(0, kMaxWordLength);
+  const std::string_view found = nearest(wrong, words);
+  if (is_near(wrong, found) && distance(wrong, found) <= 2 * kLetter) return found;
+  constexpr std::size_t kMinBeginning = 3;
+  const auto begins = std::find_if(words.begin(), words.end(), [&](auto word) {
+    const bool is_long = std::min(word.size(), wrong.size()) >= kMinBeginning;
+    return is_long && (word.starts_with(wrong) || wrong.starts_with(word));
+  });
+  if (begins == words.end()) return std::nullopt;
+  return *begins;
 }
 
 std::vector<std::string_view> nearest_words(std::string_view wrong,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +18,13 @@ namespace marey {
 /// Precondition: `words` not empty.
 [[nodiscard]] std::string suggestion(std::string_view wrong,
                                      std::span<const std::string_view> words);
+
+/// Returns the word that a user probably meant by `wrong`: the nearest one by the edit
+/// distance of suggestion(), if at most two letters and 40 % of the letters differ, else
+/// the first one of which `wrong` is the beginning or that is the beginning of `wrong`
+/// (three letters or more). nullopt if there is none.
+[[nodiscard]] std::optional<std::string_view> meant_word(
+    std::string_view wrong, std::span<const std::string_view> words);
 
 /// Returns the `count` words that are nearest to `wrong`, nearest first, by the edit
 /// distance of suggestion(); all when there are fewer.

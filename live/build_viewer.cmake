@@ -4,7 +4,7 @@
 # Sets viewer_folder, where the served page is, and viewer_files, what it is made of; and for
 # app/pages the global properties MAREY_REPORT_PARTS (functions of app/pages/report_page.h,
 # each with its files) and MAREY_REPORT_FILES: as npm builds them in live/viewer, or plain
-# ones that say that there are none.
+# pages that state that these are left out.
 option(MAREY_VIEWER "Build the served page and the reports with npm, and build them in" ON)
 
 set(kinds report calibration markers)
@@ -56,14 +56,14 @@ if(NOT NPM)
     "${instead}.")
 endif()
 
-# Node knows only its own list of authorities.
+# Node uses only its built-in list of certificate authorities.
 set(npm_env)
 set(authorities /etc/ssl/certs/ca-certificates.crt)
 if(NOT DEFINED ENV{NODE_EXTRA_CA_CERTS} AND EXISTS ${authorities})
   set(npm_env ${CMAKE_COMMAND} -E env NODE_EXTRA_CA_CERTS=${authorities})
 endif()
 
-# What package-lock.json names, once, and again when that changes.
+# Installs the packages of package-lock.json once, and again when it changes.
 set(lock ${viewer}/package-lock.json)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${lock})
 if(NOT EXISTS ${viewer}/node_modules/.package-lock.json

@@ -3,9 +3,10 @@
 #
 # cmake -D ROOT=<source tree> -P docs.cmake
 #
-# Fails when README.md, a page of docs/ or a note beside samples and test data links to, or
-# names, a file of the tree that is not there; when a source names a page that is not there;
-# when the index "Where is" has fewer than 30 rows. Also when there was nothing to check.
+# Fails when README.md, a page of docs/ or a README of samples and test data links to, or
+# names, a file of the tree that does not exist; when a source names a page that does not
+# exist; when the index "Where is" has fewer than 30 rows. Also when there was nothing to
+# check.
 cmake_minimum_required(VERSION 3.25)
 
 set(checked 0)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Folders inside the rooms, lowest first: a file may include its own folder and those
-# before it. "." is the room's top folder. docs/architecture.md says what each holds;
+# before it. "." is the room's top folder. docs/architecture.md describes each folder;
 # tests/folders.cmake checks the order.
 set(core_LAYERS base . human)
 set(capture_LAYERS v4l2 sync video tags boards search feeds)

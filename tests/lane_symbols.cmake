@@ -4,10 +4,10 @@
 # cmake -D NM=<nm> -D OBJECTS=<objects> -D KERNEL=<file> -D ARCHITECTURE=<xsimd's> \
 #       -P lane_symbols.cmake
 #
-# A kernel for wide vectors is compiled for processors that not everybody has. An inline
-# function exists once in a program: what of its code another object may define too, the
-# linker may take from the kernel, and give its instructions to everybody. So each of its
-# functions has to carry the kernel's architecture in its name, but the one that makes it.
+# A kernel for wide vectors contains instructions that not every processor has. An inline
+# function exists once in a program: if another object defines it, too, the linker may keep
+# the kernel's copy, which then runs on every processor. Therefore the name of each function
+# of the kernel must contain its architecture, except the function that creates the kernel.
 cmake_minimum_required(VERSION 3.25)
 
 list(FILTER OBJECTS INCLUDE REGEX "/${KERNEL}\\.[a-z.]*o(bj)?$")
@@ -38,7 +38,7 @@ endforeach()
 
 if(strays)
   message(FATAL_ERROR "${KERNEL}: code of ${ARCHITECTURE} under names that are not its "
-    "own; the linker may give it to everybody:\n${strays}"
+    "own; the linker may use it for every processor:\n${strays}"
     "Next: make it a template of the lanes' type, or move it out of the kernel")
 endif()
 if(own EQUAL 0)

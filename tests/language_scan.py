@@ -4,20 +4,33 @@
 """language_scan.py ROOT [--list KIND [PREFIX]] [--check CEILINGS]
 
 Counts sentences that break the rules of plain technical English in docs/conventions.md.
-Kinds: headers (comments of *.h), sources (comments of *.cpp, *.ts and *.js, and of tests,
-benchmarks and examples), messages (text of string literals), docs (*.md), tests (names of
-tests in tests/**/*.cpp, split into words). Prints for each kind the number of sentences,
-the number with at least one idiom and the share in percent. --list prints the sentences of
-one kind, optionally only of files whose path begins with PREFIX. --check fails when a share is above
-its ceiling (lines "KIND PERCENT"), or when a kind has no sentences.
+Kinds:
+  headers        comments of *.h
+  sources        comments of *.cpp, *.ts, *.js, *.mjs and *.css
+  messages       string literals of *.h and *.cpp
+  pages          string and template literals of *.ts, *.js and *.mjs, text of *.html
+  docs           *.md
+  scripts        comments and string literals of CMake files and of Python and shell scripts,
+                 and comments of *.toml
+  tests          names of tests in tests/**/*.cpp, split into words
+  test_messages  string literals of tests (also of the page's), benchmarks and examples
+Prints for each kind the number of sentences, the number with at least one idiom and the share
+in percent. --list prints the sentences of one kind, optionally only of files whose path begins
+with PREFIX. --check fails when a share is above its ceiling (lines "KIND PERCENT"), or when a
+kind has no sentences.
 """
+import ast
 import re
 import sys
 from pathlib import Path
 
 ROOMS = ("core", "capture", "calib", "reconstruct", "retarget", "recordings", "live",
          "dynamics", "edit", "engine", "library", "app")
-MARKDOWN = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/**/*.md")
+TESTS = ("tests", "benchmarks", "examples")
+KINDS = ("headers", "sources", "messages", "pages", "docs", "scripts", "tests",
+         "test_messages")
+# Folders of installed packages and of built pages.
+NOT_OURS = {"node_modules", "dist"}
 
 # Each idiom: its name, and the pattern that finds it in one sentence.
 IDIOMS = {
@@ -100,21 +113,90 @@ def comment_sentences(text, marks):
 
 
 LINE_COMMENT = re.compile(r"(?:^|\s)//[/!<]*\s?(.*)$")
-SCRIPT_COMMENT = re.compile(r"(?:^|\s)(?://|/?\*{1,2}(?!/))\s?(.*?)(?:\*/)?$")
+SCRIPT_COMMENT = re.compile(r"(?:^|\s)(?://+|/?\*{1,2}(?!/))\s?(.*?)(?:\*/)?$")
 STRING = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 
 
-def message_sentences(text):
-    """Text of adjacent string literals with at least four words, comments removed."""
-    text = "\n".join(re.sub(r"(?:^|\s)//.*$", "", line) for line in text.splitlines()
-                     if not line.lstrip().startswith("#include"))
-    text = re.sub(r'"\s*\n\s*"', "", text)
+def literal_sentences(literals):
+    """Sentences of string literals with at least four words."""
     found = []
-    for literal in STRING.findall(text):
+    for literal in literals:
         literal = literal.replace("\\n", " ").replace('\\"', '"')
         if len(literal.split()) >= 4:
             found += sentences(literal)
     return found
+
+
+def message_sentences(text):
+    """Text of adjacent string literals of C++, comments removed."""
+    text = "\n".join(re.sub(r"(?:^|\s)//.*$", "", line) for line in text.splitlines()
+                     if not line.lstrip().startswith("#include"))
+    return literal_sentences(STRING.findall(re.sub(r'"\s*\n\s*"', "", text)))
+
+
+QUOTED = re.compile(r'"((?:[^"\\\n]|\\.)*)"|\'((?:[^\'\\\n]|\\.)*)\'|`((?:[^`\\]|\\.)*)`')
+# An expression in a template literal, without further expressions in it.
+EXPRESSION = re.compile(r"\$\{((?:[^{}`]|`[^`$]*`)*)\}")
+
+
+# Literals, stored as \0NUMBER\0, that `+` joins, also with a value between them.
+JOINED = re.compile(r"\0\d+\0(?:\s*\+\s*(?:[\w.()\[\]]+\s*\+\s*)?\0\d+\0)*")
+
+
+def page_literal_sentences(text):
+    """Text of string and template literals of TypeScript and JavaScript."""
+    text = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
+    text = re.sub(r"(?:^|(?<=\s))//.*$", "", text, flags=re.M)
+    literals = []
+
+    def store(match):
+        literals.append("".join(group or "" for group in match.groups()))
+        return f"\0{len(literals) - 1}\0"
+
+    expressions = []
+    while EXPRESSION.search(text):
+        expressions += [QUOTED.sub(store, found) for found in EXPRESSION.findall(text)]
+        text = EXPRESSION.sub("VALUE", text)
+    text = QUOTED.sub(store, text)
+    found = []
+    for run in JOINED.findall("\n".join([text] + expressions)):
+        run = re.sub(r"(?<=\0)\s*\+\s*(?=\0)", "", run)
+        run = re.sub(r"(?<=\0)\s*\+[^\0]+\+\s*(?=\0)", "VALUE", run)
+        found += html_sentences(re.sub(r"\0(\d+)\0", lambda m: literals[int(m[1])], run))
+    return found
+
+
+def html_sentences(text):
+    """Text between tags, and attributes that a page shows."""
+    text = re.sub(r"<!--.*?-->|<(script|style).*?</\1>", "", text, flags=re.S)
+    shown = re.findall(r'\b(?:title|alt|placeholder|aria-label|content)="([^"]*)"', text)
+    blocks = re.split(r"</?(?!b>|i>|em>|strong>|code>|kbd>|a\b|span\b)[^>]*>", text)
+    return [sentence for block in blocks + shown
+            for sentence in sentences(re.sub(r"</?\w[^>]*>", "", block))]
+
+
+HASH_COMMENT = re.compile(r"(?:^|\s)#(?!!)+\s?(.*)$")
+MULTILINE_STRING = re.compile(r'"((?:[^"\\]|\\.)*)"')
+PATTERN = re.compile(r"\(\?|\\[bsw]|\[\^")
+
+
+def script_sentences(text):
+    """Comments and string literals of CMake files and of shell scripts."""
+    found = comment_sentences(text, HASH_COMMENT)
+    text = re.sub(r"(?:^|(?<=\s))#.*$", "", text, flags=re.M)
+    text = re.sub(r"\$\{?\w+\}?", "VALUE", text)
+    text = re.sub(r'"\s*\n\s*"', "", text)
+    literals = [literal for literal in MULTILINE_STRING.findall(text)
+                if not PATTERN.search(literal)]
+    return found + literal_sentences(literals)
+
+
+def python_sentences(text):
+    """Comments, docstrings and other string literals of Python; patterns are left out."""
+    literals = [node.value for node in ast.walk(ast.parse(text))
+                if isinstance(node, ast.Constant) and isinstance(node.value, str)
+                and not PATTERN.search(node.value)]
+    return comment_sentences(text, HASH_COMMENT) + literal_sentences(literals)
 
 
 def markdown_sentences(text):
@@ -140,41 +222,53 @@ def test_names(text):
     return [WORD_START.sub(" ", name).capitalize() for name in TEST_NAME.findall(text)]
 
 
-def sources_of(root, pattern):
-    for room in ROOMS:
-        for path in sorted((root / room).rglob(pattern)):
-            if not {"node_modules", "dist"} & set(path.relative_to(root).parts):
-                yield path
+def files_of(root, folders, *patterns):
+    """Files in these folders whose name fits one of the patterns."""
+    for folder in folders:
+        for pattern in patterns:
+            for path in sorted((root / folder).rglob(pattern)):
+                if path.is_file() and not NOT_OURS & set(path.relative_to(root).parts):
+                    yield path
 
 
 def scan(root):
     """Returns {kind: [(path, sentence, idioms)]}."""
-    result = {"headers": [], "sources": [], "messages": [], "docs": [], "tests": []}
+    result = {kind: [] for kind in KINDS}
 
-    def add(kind, path, found):
-        for sentence in found:
+    def add(kind, path, reader, *options):
+        for sentence in reader(path.read_text(), *options):
             plain = TERMS.sub("TERM", sentence)
             idioms = [name for name, pattern in IDIOMS.items() if pattern.search(plain)]
             result[kind].append((path.relative_to(root), sentence, idioms))
 
-    for path in sources_of(root, "*.h"):
-        add("headers", path, comment_sentences(path.read_text(), LINE_COMMENT))
-        add("messages", path, message_sentences(path.read_text()))
-    for path in sources_of(root, "*.cpp"):
-        add("sources", path, comment_sentences(path.read_text(), LINE_COMMENT))
-        add("messages", path, message_sentences(path.read_text()))
-    for pattern in ("*.ts", "*.js"):
-        for path in sources_of(root, pattern):
-            add("sources", path, comment_sentences(path.read_text(), SCRIPT_COMMENT))
-    for pattern in MARKDOWN:
-        for path in sorted(root.glob(pattern)):
-            add("docs", path, markdown_sentences(path.read_text()))
-    for path in sorted((root / "tests").rglob("*.cpp")):
-        add("tests", path, test_names(path.read_text()))
-    for folder in ("tests", "benchmarks", "examples"):
-        for pattern in ("*.h", "*.cpp"):
-            for path in sorted((root / folder).rglob(pattern)):
-                add("sources", path, comment_sentences(path.read_text(), LINE_COMMENT))
+    for path in files_of(root, ROOMS, "*.h", "*.cpp"):
+        kind = "headers" if path.suffix == ".h" else "sources"
+        add(kind, path, comment_sentences, LINE_COMMENT)
+        add("messages", path, message_sentences)
+    for path in files_of(root, TESTS, "*.h", "*.cpp"):
+        add("sources", path, comment_sentences, LINE_COMMENT)
+        add("test_messages", path, message_sentences)
+    for path in files_of(root, ("tests",), "*.cpp"):
+        add("tests", path, test_names)
+    for path in files_of(root, ROOMS + TESTS, "*.ts", "*.js", "*.mjs", "*.css"):
+        add("sources", path, comment_sentences, SCRIPT_COMMENT)
+        if path.suffix != ".css":
+            of_page = not {"test", *TESTS} & set(path.relative_to(root).parts)
+            add("pages" if of_page else "test_messages", path, page_literal_sentences)
+    for path in files_of(root, ROOMS + TESTS, "*.html"):
+        add("pages", path, html_sentences)
+    everywhere = ROOMS + TESTS + ("cmake", "docs")
+    for path in sorted(root.glob("*.md")) + list(files_of(root, everywhere, "*.md")):
+        add("docs", path, markdown_sentences)
+    for path in files_of(root, everywhere, "*.py"):
+        add("scripts", path, python_sentences)
+    for path in files_of(root, everywhere, "*.toml"):
+        add("scripts", path, comment_sentences, HASH_COMMENT)
+    scripts = [root / "CMakeLists.txt", root / "run", root / ".ci/run"]
+    scripts += files_of(root, everywhere, "CMakeLists.txt", "*.cmake", "*.sh")
+    for path in scripts:
+        if path.exists():
+            add("scripts", path, script_sentences)
     return result
 
 

@@ -12,7 +12,7 @@ if(NOT GIT OR NOT EXISTS ${ROOT}/.git)
   return()
 endif()
 
-# The checkout may be somebody else's, as in containers.
+# The checkout may belong to another user, as in containers.
 set(GIT_HERE ${GIT} -c safe.directory=* -C ${ROOT})
 
 function(files_of out)

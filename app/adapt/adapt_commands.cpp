@@ -16,6 +16,7 @@
 #include "app/adapt/adapt_body.h"
 #include "app/adapt/adapt_iterations.h"
 #include "app/adapt/adapt_json.h"
+#include "app/motion/raw_body.h"
 #include "app/motion/retarget_files.h"
 #include "app/shell/findings.h"
 #include "app/shell/option_checks.h"
@@ -103,7 +104,7 @@ Status choose_balance_groups(const AdaptArguments& args, Character& character) {
       found = true;
     }
     if (!found) {
-      return bad_input("--balance-groups",
+      return bad_usage("--balance-groups",
                        "the character has no group \"" + wanted + "\"",
                        suggestion(wanted, names));
     }
@@ -250,7 +251,7 @@ void add_choice(CLI::App& command,
           option,
           [&value, words](const std::string& word) { value = words.at(word); },
           help)
-      ->check(CLI::IsMember(words))
+      ->check(one_of_keys(words))
       ->type_name("WORD");
 }
 
@@ -293,12 +294,13 @@ void add_solve_options(CLI::App& command, retarget::AdaptOptions& options) {
                   "method makes at least " +
                       std::to_string(retarget::kFirstSteps) + ", with balance " +
                       std::to_string(retarget::kFirstStepsBalanced))
-      ->check(CLI::Range(1, 100000));
+      ->check(whole_between(1, 100000));
 }
 
 }  // namespace
 
 Exit run_adapt(const AdaptArguments& args, Console& console) {
+  if (const Status ok = check_out_file(args.out); !ok) return console.fail(ok.error());
   const std::string kind = kind_by_extension(args.out);
   if (kind != ".bvh" && kind != ".glb") {
     return console.fail(bad_input(args.out.string(),
@@ -323,7 +325,7 @@ void add_adapt_command(CLI::App& app,
                        std::function<Exit(Console&)>& chosen) {
   CLI::App* command = app.add_subcommand(
       "adapt", "Adapt a motion to constraints, with feet that do not slide");
-  command->add_option("motion", args.motion, ".bvh, .glb, .vrm or .vrma")->required();
+  command->add_option("MOTION", args.motion, "Motion: " + body_extensions())->required();
   command->add_option("-c,--character",
                       args.character,
                       "character.toml of the body; default the motion's body");

@@ -50,8 +50,9 @@ std::optional<Finding> assess_moved_camera(const std::string& trial,
       "moved",
       "trial " + trial + ", " + names,
       std::move(cause),
-      "its joints are off by as much; calibrate again as the cameras stand now, and "
-      "record the trial again, or leave that camera's video out of it"};
+      "the joints of this trial have errors of about this size; calibrate again with the "
+      "cameras where they are now and record the trial again, or leave the video of this "
+      "camera out of the trial"};
 }
 
 }  // namespace marey::app

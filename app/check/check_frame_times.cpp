@@ -110,7 +110,7 @@ Status check_stated(const Trial& trial,
       "rate",
       source,
       own + " (as for the other videos), and " + declared +
-          format_text(": movements are taken to be %.2f times as fast as the video shows",
+          format_text(": movements are computed %.2f times as fast as in the video",
                       trial.rate->hz / rate.hz),
       format_text(
           "correct fps in session.toml, or leave it out; if the videos play in slow "

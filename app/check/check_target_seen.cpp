@@ -91,8 +91,8 @@ Status check_board(const recordings::Session& session,
   if (!other) return Done{};
   return bad_input(inputs[other->input].path.string(),
                    "no " + name_of(*target) + " is seen in " +
-                       std::to_string(other->frames) + " frames from all over it, but " +
-                       other->seen.what,
+                       std::to_string(other->frames) +
+                       " frames sampled from the whole video, but " + other->seen.what,
                    other->seen.remedy);
 }
 
@@ -136,8 +136,8 @@ Status check_target_seen(const recordings::Session& session,
                          seen->what,
                      seen->remedy);
   }
-  std::string cause = "not a single tag is seen in its " +
-                      std::to_string(camera.frames.size()) + " frames";
+  std::string cause =
+      "no tag is seen in any of its " + std::to_string(camera.frames.size()) + " frames";
   if (wanted.shows_grid) {
     if (const auto seen = capture::survey_boards(camera.source, AprilGrid{})) {
       return bad_input(camera.source, cause + ", but " + seen->what, seen->remedy);

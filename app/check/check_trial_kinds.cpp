@@ -96,14 +96,15 @@ std::optional<Finding> assess_range_of_motion(
     if (trial.kind != TrialKind::kMotion) continue;
     const auto other_m = travel_in(trial, tags, found);
     if (!other_m || *other_m > kStays_m) continue;
-    return fair_finding("exercise",
-                        session.file.string() + ":" + std::to_string(exercise->line),
-                        "in trial " + exercise->name +
-                            ", the range of motion, the subject walks about (" +
-                            in_metres(*travel_m, 1) + "), and in trial " + trial.name +
-                            " it stays in one place",
-                        "if the videos of " + exercise->name + " and " + trial.name +
-                            " are exchanged, correct `videos`, or the trials' `kind`");
+    return fair_finding(
+        "exercise",
+        session.file.string() + ":" + std::to_string(exercise->line),
+        "in trial " + exercise->name +
+            ", the range of motion, the subject walks through the room (" +
+            in_metres(*travel_m, 1) + "), and in trial " + trial.name +
+            " it stays in one place",
+        "if the videos of " + exercise->name + " and " + trial.name +
+            " are exchanged, correct `videos`, or the trials' `kind`");
   }
   return std::nullopt;
 }

@@ -24,9 +24,9 @@ namespace marey::app {
     const recordings::Session& session,
     const std::map<std::string, std::vector<CameraDetections>>& found);
 
-/// Returns a fair finding if the subject walks about in the range-of-motion trial and
-/// stays in one place in another motion, as their videos may be exchanged. Uses the tags
-/// on hips and chest; nullopt also if there are fewer than six of them. Cost: as
+/// Returns a fair finding if the subject walks through the room in the range-of-motion
+/// trial and stays in one place in another motion, as their videos may be exchanged. Uses
+/// the tags on hips and chest; nullopt also if there are fewer than six of them. Cost: as
 /// check_standing().
 [[nodiscard]] std::optional<Finding> assess_range_of_motion(
     const recordings::Session& session,

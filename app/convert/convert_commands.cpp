@@ -12,8 +12,10 @@
 
 #include "app/convert/convert_motion.h"
 #include "app/motion/neutral.h"
+#include "app/motion/raw_body.h"
 #include "app/shell/option_checks.h"
 #include "core/base/extension.h"
+#include "core/base/input_file.h"
 #include "recordings/markers/marker_file.h"
 
 namespace marey::app {
@@ -75,15 +77,22 @@ Exit run_convert(const ConvertArguments& arguments, Console& console) {
                                   "that is the file to be converted",
                                   "give the result another name"));
   }
+  if (const Status ok = check_input_file(arguments.in); !ok) {
+    const auto folder = no_conversion(arguments.in);
+    return console.fail(folder ? *folder : ok.error());
+  }
   if (const auto error = no_conversion(arguments.in)) return console.fail(*error);
-  if (is_motion(arguments.in)) return convert_motion(arguments, console);
+  if (const Status ok = check_out_file(arguments.out); !ok) {
+    return console.fail(ok.error());
+  }
+  if (is_body_file(arguments.in)) return convert_motion(arguments, console);
   if (arguments.rate_hz || arguments.to_rate_hz || !arguments.skeleton.empty() ||
       !arguments.bvh_dialect.empty() || !arguments.neutral.empty()) {
     return console.fail(
         bad_input(arguments.in.string(),
                   "--rate, --to-rate, --skeleton, --neutral and --bvh-dialect are for "
                   "motions alone",
-                  "leave them out, or give a .bvh, .amc, .npz, .glb, .vrm or .vrma"));
+                  "leave them out, or give a motion: " + body_extensions()));
   }
   recordings::MarkerReadOptions read_as;
   if (!arguments.up.empty()) read_as.up = recordings::axis_of(arguments.up);
@@ -140,32 +149,34 @@ void add_convert_command(CLI::App& app,
                          std::function<Exit(Console&)>& chosen) {
   CLI::App* command =
       app.add_subcommand("convert", "Convert markers or a motion to another format");
-  const CLI::IsMember axis({"+X", "+Y", "+Z", "-X", "-Y", "-Z"});
-  const CLI::IsMember unit({"mm", "cm", "m", "in", "ft"});
+  const CLI::Validator axis = one_of({"+X", "+Y", "+Z", "-X", "-Y", "-Z"});
+  const CLI::Validator unit = one_of({"mm", "cm", "m", "in", "ft"});
   command
-      ->add_option("in", args.in, ".c3d or .trc; .bvh, .amc, .npz, .glb, .vrm or .vrma")
+      ->add_option(
+          "INPUT", args.in, "Markers: .c3d or .trc; motion: " + body_extensions())
       ->required();
   command
-      ->add_option("out",
+      ->add_option("OUTPUT",
                    args.out,
                    "Result; markers: .c3d or .trc; motion: .bvh, .vrma, .npz, .csv "
                    "or .mot")
       ->required();
-  command->add_option("--up", args.up, "Up axis of IN, if the detected one is wrong")
+  command->add_option("--up", args.up, "Up axis of INPUT, if the detected one is wrong")
       ->check(axis);
-  command->add_option("--unit", args.unit, "Unit of IN, if its file is wrong")
+  command->add_option("--unit", args.unit, "Unit of INPUT, if its file is wrong")
       ->check(unit);
-  command->add_option("--to-up", args.to_up, "Up axis of OUT")->check(axis);
-  command->add_option("--to-unit", args.to_unit, "Unit of OUT")->check(unit);
+  command->add_option("--to-up", args.to_up, "Up axis of OUTPUT")->check(axis);
+  command->add_option("--to-unit", args.to_unit, "Unit of OUTPUT")->check(unit);
   command->add_option(
       "--skeleton", args.skeleton, "The .asf of an .amc, if not in its folder");
   command
-      ->add_option("--rate", args.rate_hz, "Frame rate of IN [Hz], if its file is wrong")
+      ->add_option(
+          "--rate", args.rate_hz, "Frame rate of INPUT [Hz], if its file is wrong")
       ->check(between(0.1, 2000.0));
-  command->add_option("--to-rate", args.to_rate_hz, "Frames per second of OUT")
+  command->add_option("--to-rate", args.to_rate_hz, "Frames per second of OUTPUT")
       ->check(between(0.1, 2000.0));
   command->add_option("--bvh-dialect", args.bvh_dialect, "Program that reads the .bvh")
-      ->check(CLI::IsMember({"blender", "mobu", "maya", "unity"}));
+      ->check(one_of({"blender", "mobu", "maya", "unity"}));
   command->add_option("--neutral", args.neutral, kNeutralHelp)->check(neutral_mistake);
   command->add_flag("--json", args.json, "Print the figures as JSON on standard output");
   command->callback(

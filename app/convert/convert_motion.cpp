@@ -235,11 +235,6 @@ void report_conversion(const ConvertArguments& arguments,
 
 }  // namespace
 
-bool is_motion(const std::filesystem::path& file) {
-  const std::string kind = kind_by_extension(file);
-  return kind == ".bvh" || kind == ".amc" || kind == ".npz" || is_gltf(file);
-}
-
 Exit convert_motion(const ConvertArguments& arguments, Console& console) {
   if (!arguments.up.empty() || !arguments.to_up.empty()) {
     return console.fail(bad_input(arguments.in.string(),

@@ -9,11 +9,7 @@
 
 namespace marey::app {
 
-/// Returns true if a file can contain the motion of a skeleton, by its extension: .bvh,
-/// .amc, .npz, .glb, .gltf, .vrm or .vrma.
-[[nodiscard]] bool is_motion(const std::filesystem::path& file);
-
-/// Runs `marey convert IN OUT` for an IN that is_motion().
+/// Runs `marey convert INPUT OUTPUT` for an INPUT that is_body_file().
 [[nodiscard]] Exit convert_motion(const ConvertArguments& arguments, Console& console);
 
 }  // namespace marey::app

@@ -245,7 +245,7 @@ void add_doctor_command(CLI::App& app,
                         DoctorArguments& args,
                         std::function<Exit(Console&)>& chosen) {
   CLI::App* command = app.add_subcommand("doctor", "Check this machine");
-  command->add_flag("--json", args.json, "As JSON");
+  command->add_flag("--json", args.json, "Print the results as JSON on standard output");
   command->callback([&] {
     chosen = [&args](Console& console) { return run_doctor(args.json, console); };
   });

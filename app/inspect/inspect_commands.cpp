@@ -19,17 +19,13 @@
 #include "app/motion/neutral.h"
 #include "app/motion/raw_body.h"
 #include "core/base/extension.h"
+#include "core/base/input_file.h"
 #include "recordings/session/file_kind.h"
 
 namespace marey::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-bool is_body(const std::filesystem::path& file) {
-  const std::string kind = kind_by_extension(file);
-  return is_gltf(file) || kind == ".bvh" || kind == ".amc" || kind == ".npz";
-}
 
 /// Returns an error that names the program for a file that marey writes for other
 /// programs.
@@ -65,7 +61,7 @@ Result<Json> inspect_file(const std::filesystem::path& file,
   if (named == "session.toml") return inspect_session(file);
   if (named == "joints.csv" || named == "segments.csv") return inspect_table(file);
   if (extension == ".json") return inspect_report(file);
-  if (is_body(file)) return inspect_body(file, options, console);
+  if (is_body_file(file)) return inspect_body(file, options, console);
   if (extension == ".c3d" || extension == ".trc") return inspect_markers(file);
   if (extension == ".mot" || extension == ".sto") return inspect_angles(file);
   if (extension == ".asf") return inspect_acclaim(file);
@@ -84,10 +80,8 @@ Result<Json> inspect(const std::filesystem::path& file,
                      const InspectBodyOptions& options,
                      Console& console) {
   std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) {
-    return bad_input(file.string(), "does not exist", "check its name");
-  }
   if (std::filesystem::is_directory(file, ignored)) return inspect_folder(file);
+  if (const Status ok = check_input_file(file); !ok) return ok.error();
   return inspect_file(file, options, console);
 }
 
@@ -120,11 +114,11 @@ Exit run_inspect(const std::filesystem::path& file,
                  const InspectBodyOptions& options,
                  bool json,
                  Console& console) {
-  if (options.asks() && !is_body(file)) {
+  if (options.asks() && !is_body_file(file)) {
     return console.fail(
         bad_input(file.string(),
                   "is not a body; only bodies have a bone map and a picture",
-                  "give a .bvh, .amc, .npz, .glb, .gltf, .vrm or .vrma file"));
+                  "give a body: " + body_extensions()));
   }
   const auto found = inspect(file, options, console);
   if (!found) return console.fail(found.error());
@@ -140,8 +134,8 @@ void add_inspect_command(CLI::App& app,
                          InspectArguments& args,
                          std::function<Exit(Console&)>& chosen) {
   CLI::App* command = app.add_subcommand("inspect", "Show the content of a file");
-  command->add_option("file", args.file, "A session, result, motion or body")->required();
-  command->add_flag("--json", args.json, "As JSON");
+  command->add_option("FILE", args.file, "A session, result, motion or body")->required();
+  command->add_flag("--json", args.json, "Print the content as JSON on standard output");
   command->add_option("--bones", args.body.bone_map, "Bone map of the body (TOML)");
   command->add_flag(
       "--write-map", args.body.write_map, "Write the bone map next to the body");

@@ -11,6 +11,7 @@
 #include "app/live_chain/live_avatar.h"
 #include "app/live_chain/live_streams.h"
 #include "app/motion/motion_files.h"
+#include "app/motion/raw_body.h"
 #include "app/shell/option_checks.h"
 #include "app/shell/stop_signal.h"
 #include "core/base/extension.h"
@@ -180,7 +181,7 @@ Result<MotionFormat> format_of(const std::filesystem::path& out) {
   if (format) return *format;
   return bad_input(out.string(),
                    "the extension is not that of a motion format",
-                   "give the file the extension .bvh, .glb, .vrma, .npz or .csv");
+                   "give the file one of the extensions " + motion_extensions());
 }
 
 void print(const live::VmcReceived& received, std::size_t kept, long untracked) {
@@ -213,12 +214,12 @@ Status write(const ListenArguments& arguments,
 
 Exit run_listen(const ListenArguments& arguments, Console& console) {
   if (arguments.out.empty() && arguments.avatars.empty()) {
-    return console.fail(bad_input("marey listen",
+    return console.fail(bad_usage("marey listen",
                                   "no output is given for the received motion",
                                   "give --out FILE, or --avatar FILE with --vmc HOST"));
   }
   if (arguments.avatars.empty() != arguments.vmc.empty()) {
-    return console.fail(bad_input("marey listen",
+    return console.fail(bad_usage("marey listen",
                                   "--avatar and --vmc go together",
                                   "give both the body and the receiver of its packets"));
   }
@@ -271,12 +272,12 @@ void add_listen_command(CLI::App& app,
                         std::function<Exit(Console&)>& chosen) {
   CLI::App* command = app.add_subcommand(
       "listen", "Receive VMC and write a motion or send it on another body");
-  command->add_option("body", arguments.body, "The sender's avatar (.vrm, .glb)")
+  command->add_option("BODY", arguments.body, "The sender's avatar: " + body_extensions())
       ->required();
-  command->add_option("-o,--out", arguments.out, "The motion: .bvh, .glb, .vrma, .npz");
+  command->add_option("-o,--out", arguments.out, "The motion: " + motion_extensions());
   command->add_option("--at", arguments.from, "Address to listen on: HOST[:PORT]");
   command->add_option("--rest", arguments.rest, "Pose without rotations: vrm0 or raw")
-      ->check(CLI::IsMember({"vrm0", "raw"}));
+      ->check(one_of({"vrm0", "raw"}));
   command->add_option("-a,--avatar", arguments.avatars, "Body for live retargeting")
       ->expected(1);
   command->add_option("--vmc", arguments.vmc, "Receiver of its VMC packets: HOST[:PORT]")

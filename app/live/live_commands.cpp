@@ -11,10 +11,12 @@
 #include "app/live/live_takes.h"
 #include "app/live_chain/live_chain.h"
 #include "app/live_chain/live_outputs.h"
+#include "app/motion/raw_body.h"
 #include "app/shell/option_checks.h"
 #include "app/shell/stop_signal.h"
 #include "app/view/view_commands.h"
 #include "core/human/average_proportions.h"
+#include "live/vmc/vmc_encoder.h"
 #include "live/vmc/vmc_sender.h"
 
 namespace marey::app {
@@ -163,7 +165,7 @@ void add_live_command(CLI::App& app,
                       std::function<Exit(Console&)>& chosen) {
   CLI::App* command =
       app.add_subcommand("live", "Track a subject live and move characters");
-  command->add_option("session", live.session, "session.toml, or its folder")->required();
+  command->add_option("SESSION", live.session, "session.toml, or its folder")->required();
   command->add_option("--results",
                       live.results,
                       "Folder with calibration.toml and subject.toml, if not the "
@@ -182,19 +184,19 @@ void add_live_command(CLI::App& app,
   command
       ->add_option("-a,--avatar",
                    live.avatars,
-                   "Body to retarget to (.glb, .vrm, .bvh); may be repeated")
+                   "Body to retarget to: " + body_extensions() + "; may be repeated")
       ->allow_extra_args(false);
   command
       ->add_option(
           "--vmc", live.vmc, "Receiver of VMC: [AVATAR=]HOST[:PORT]; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--vmc-rest", live.vmc_rest, "Pose without rotations: vrm0 or raw")
-      ->check(CLI::IsMember({"vrm0", "raw"}));
+      ->check(one_of({"vrm0", "raw"}));
   command
       ->add_option("--vmc-mtu",
                    live.vmc_mtu,
                    "Largest packet in bytes; 0: one bundle a frame, as on this machine")
-      ->check(between(0, 65507));
+      ->check(zero_or_between(live::kMinPacketBytes, live::kMaxPacketBytes));
   command->add_option("--vmc-listen", live.vmc_listen, "Port to receive commands on")
       ->check(between(1, 65535));
   command->add_flag("--vmc-send-only", live.vmc_send_only, "Receive no commands");

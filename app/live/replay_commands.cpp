@@ -16,6 +16,7 @@
 #include "app/live_chain/open_live_take.h"
 #include "app/shell/option_checks.h"
 #include "app/shell/stop_signal.h"
+#include "core/base/input_file.h"
 
 namespace marey::app {
 namespace {
@@ -33,8 +34,7 @@ bool wait_until(std::chrono::steady_clock::time_point instant) {
   while (!stop_wanted()) {
     const auto now = std::chrono::steady_clock::now();
     if (now >= instant) return true;
-    std::this_thread::sleep_for(
-        std::min<std::chrono::nanoseconds>(instant - now, kLook));
+    std::this_thread::sleep_for(std::min<std::chrono::nanoseconds>(instant - now, kLook));
   }
   return false;
 }
@@ -72,8 +72,7 @@ Result<Replayed> replay(const ReplayArguments& arguments,
                         LiveOutputs& outputs,
                         const Progress& progress) {
   using Clock = std::chrono::steady_clock;
-  const std::string file =
-      (arguments.take / recordings::kLiveTakeFile).string();
+  const std::string file = (arguments.take / recordings::kLiveTakeFile).string();
   Clock::time_point begin = Clock::now();
   const auto& instants = opened.take.instants;
   Replayed found;
@@ -112,6 +111,15 @@ Result<Replayed> replay(const ReplayArguments& arguments,
   return found;
 }
 
+Status check_take_folder(const std::filesystem::path& take) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(take, ignored)) return Done{};
+  if (!std::filesystem::exists(take, ignored)) return check_input_file(take);
+  return bad_input(take.string(),
+                   "this is a file, not the folder of a take",
+                   "name the folder that marey live --record made");
+}
+
 void print(const Replayed& found) {
   nlohmann::ordered_json out{{"frames", found.frames}, {"differing", found.differing}};
   out["first_differing"] = found.first_differing
@@ -123,6 +131,9 @@ void print(const Replayed& found) {
 }  // namespace
 
 Exit run_replay(const ReplayArguments& arguments, Console& console) {
+  if (const Status ok = check_take_folder(arguments.take); !ok) {
+    return console.fail(ok.error());
+  }
   const auto opened = open_live_take(arguments.take);
   if (!opened) return console.fail(opened.error());
   if (!opened->take.finished) {
@@ -164,18 +175,16 @@ void add_replay_command(CLI::App& app,
                         std::function<Exit(Console&)>& chosen) {
   CLI::App* command =
       app.add_subcommand("replay", "Replay a recorded live run, with the same bytes");
-  command->add_option("take", args.take, "Folder written by marey live --record")
+  command->add_option("TAKE", args.take, "Folder written by marey live --record")
       ->required();
-  command
-      ->add_option("--vmc", args.vmc, "Receiver of the packets: [AVATAR=]HOST[:PORT]")
+  command->add_option("--vmc", args.vmc, "Receiver of the packets: [AVATAR=]HOST[:PORT]")
       ->allow_extra_args(false);
   command->add_option("--speed", args.speed, "Speed factor: 1 is the recorded speed")
       ->check(between(0.01, 100.0));
   command->add_flag("--fast", args.fast, "Replay without pauses");
   command->add_flag("--json", args.json, "Print the figures as JSON");
-  command->callback([&] {
-    chosen = [&args](Console& console) { return run_replay(args, console); };
-  });
+  command->callback(
+      [&] { chosen = [&args](Console& console) { return run_replay(args, console); }; });
 }
 
 }  // namespace marey::app

@@ -15,6 +15,7 @@
 #include "app/markers/label_checks.h"
 #include "app/markers/marker_report.h"
 #include "app/markers/trial_checks.h"
+#include "app/motion/raw_body.h"
 #include "app/shell/findings.h"
 #include "app/shell/option_checks.h"
 #include "core/base/stopwatch.h"
@@ -220,7 +221,8 @@ void add_fit_command(CLI::App& app,
                      std::function<Exit(Console&)>& chosen) {
   CLI::App* command =
       app.add_subcommand("fit", "Subject and motion from labelled markers (C3D, TRC)");
-  command->add_option("in", args.in, "Trials of one subject, .c3d or .trc")->required();
+  command->add_option("INPUT", args.in, "Trials of one subject, .c3d or .trc")
+      ->required();
   command->add_option("-o,--out", args.out, "Folder for the results")->required();
   CLI::Option* map = command->add_option(
       "--markers", args.map, "Meaning of labels with unknown names (MAP.toml)");
@@ -234,15 +236,16 @@ void add_fit_command(CLI::App& app,
                           ->check(between(1.0, 500.0));
   for (CLI::Option* option : {map, person, stature, mass}) option->excludes(subject);
   command
-      ->add_option("-a,--avatar",
-                   args.avatars,
-                   "Body to put the motion on (.glb, .vrm, .bvh); may be repeated")
+      ->add_option(
+          "-a,--avatar",
+          args.avatars,
+          "Body to put the motion on: " + body_extensions() + "; may be repeated")
       // One value per option: the next argument may be a trial.
       ->allow_extra_args(false);
   command->add_option("--up", args.up, "Up axis of the files; default as detected")
-      ->check(CLI::IsMember({"+X", "+Y", "+Z", "-X", "-Y", "-Z"}));
+      ->check(one_of({"+X", "+Y", "+Z", "-X", "-Y", "-Z"}));
   command->add_option("--unit", args.unit, "Unit of the files; default as stated in them")
-      ->check(CLI::IsMember({"mm", "cm", "m", "in", "ft"}));
+      ->check(one_of({"mm", "cm", "m", "in", "ft"}));
   command->add_flag("--json", args.json, "Print fit.json on standard output");
   command->callback(
       [&] { chosen = [&args](Console& console) { return run_fit(args, console); }; });

@@ -11,6 +11,7 @@
 
 #include "app/markers/marker_report.h"
 #include "app/markers/repair_json.h"
+#include "app/shell/option_checks.h"
 #include "core/base/extension.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/markers/marker_file.h"
@@ -72,6 +73,10 @@ Exit run_repair(const RepairArguments& args, Console& console) {
                                   "the result would replace the file to repair",
                                   "give the result another name"));
   }
+  for (const Status& ok :
+       {check_out_file(args.out), recordings::check_marker_extension(args.out)}) {
+    if (!ok) return console.fail(ok.error());
+  }
   auto read = recordings::read_markers(args.in);
   if (!read) return console.fail(read.error());
   for (const std::string& note : read->notes) {
@@ -128,7 +133,7 @@ void add_repair_command(CLI::App& app,
                         std::function<Exit(Console&)>& chosen) {
   CLI::App* command =
       app.add_subcommand("repair", "Fill the gaps of labelled markers (C3D, TRC)");
-  command->add_option("in", args.in, ".c3d or .trc")->required();
+  command->add_option("INPUT", args.in, "Labelled markers, .c3d or .trc")->required();
   command->add_option("-o,--out", args.out, "Result: .c3d or .trc")->required();
   command
       ->add_option("--max-sigma",

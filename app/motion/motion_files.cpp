@@ -9,6 +9,7 @@
 #include "app/motion/angle_table.h"
 #include "app/motion/error_of_file.h"
 #include "app/motion/foot_contacts.h"
+#include "app/shell/word_list.h"
 #include "core/pose.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/gltf/vrma.h"
@@ -89,6 +90,14 @@ std::optional<MotionFormat> motion_format(std::string_view wanted) {
     if (name(format) == wanted) return format;
   }
   return std::nullopt;
+}
+
+std::string motion_extensions() {
+  std::vector<std::string> extensions;
+  for (const MotionFormat format : kFormats) {
+    extensions.push_back("." + std::string(name(format)));
+  }
+  return or_list(extensions);
 }
 
 Result<std::string> vrma_of(const Motion& motion, const std::string& clip) {

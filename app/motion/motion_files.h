@@ -26,6 +26,9 @@ enum class MotionFormat { kGlb, kBvh, kVrma, kNpz, kCsv, kMot };
 /// Returns the file extension without its point: "glb", "bvh", ...
 [[nodiscard]] std::string_view name(MotionFormat format);
 [[nodiscard]] std::optional<MotionFormat> motion_format(std::string_view name);
+/// Returns the extensions of all formats, for help and messages: ".glb, .bvh, .vrma,
+/// .npz, .csv or .mot".
+[[nodiscard]] std::string motion_extensions();
 
 /// The file of a body's mesh (empty: none), and the changes made to the body since.
 struct BodyLook {

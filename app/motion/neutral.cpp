@@ -15,7 +15,7 @@
 namespace marey::app {
 namespace {
 
-bool is_body_file(const std::filesystem::path& file) {
+bool is_neutral_file(const std::filesystem::path& file) {
   const std::string kind = kind_by_extension(file);
   return is_gltf(file) || kind == ".bvh" || kind == ".amc";
 }
@@ -128,7 +128,7 @@ Result<Neutral> read_neutral(const std::string& word) {
     neutral.kind = NeutralKind::kNamed;
     return neutral;
   }
-  if (!is_body_file(word)) return no_neutral(word);
+  if (!is_neutral_file(word)) return no_neutral(word);
   neutral.kind = NeutralKind::kFile;
   neutral.file = word;
   return neutral;
@@ -140,7 +140,7 @@ Result<NeutralKind> set_neutral(const Neutral& neutral,
                                 const std::optional<glm::dvec3>& up_in_file) {
   if (motion.poses.empty()) return NeutralKind::kRest;
   const glm::dvec3 up = up_in_file ? glm::normalize(*up_in_file)
-                                : retarget::up_of_motion(motion, found).axis;
+                                   : retarget::up_of_motion(motion, found).axis;
   Status ok = Done{};
   switch (neutral.kind) {
     case NeutralKind::kAuto: {

@@ -3,10 +3,15 @@
 #include "app/motion/raw_body.h"
 
 #include <algorithm>
+#include <array>
+#include <ranges>
 #include <string>
+#include <string_view>
 #include <utility>
 
+#include "app/shell/word_list.h"
 #include "core/base/extension.h"
+#include "core/base/input_file.h"
 #include "recordings/motion/asf.h"
 #include "recordings/motion/bvh.h"
 #include "recordings/motion/npz.h"
@@ -78,6 +83,26 @@ Result<RawBody> read_gltf(const std::filesystem::path& path) {
   return raw;
 }
 
+using Reader = Result<RawBody> (*)(const std::filesystem::path&);
+
+/// The readers of all kinds of files, by extension.
+constexpr std::array<std::pair<std::string_view, Reader>, 7> kReaders{
+    {{".bvh", read_bvh},
+     {".amc", read_acclaim},
+     {".npz", read_npz},
+     {".glb", read_gltf},
+     {".gltf", read_gltf},
+     {".vrm", read_gltf},
+     {".vrma", read_gltf}}};
+
+/// Returns nullptr if there is none for the file's extension.
+Reader find_reader(const std::filesystem::path& path) {
+  const std::string extension = kind_by_extension(path);
+  const auto found = std::ranges::find_if(
+      kReaders, [&](const auto& reader) { return reader.first == extension; });
+  return found == kReaders.end() ? nullptr : found->second;
+}
+
 }  // namespace
 
 bool is_gltf(const std::filesystem::path& path) {
@@ -85,14 +110,20 @@ bool is_gltf(const std::filesystem::path& path) {
   return kind == ".glb" || kind == ".gltf" || kind == ".vrm" || kind == ".vrma";
 }
 
+std::string body_extensions() {
+  return or_list(kReaders | std::views::keys);
+}
+
+bool is_body_file(const std::filesystem::path& path) {
+  return find_reader(path) != nullptr;
+}
+
 Result<RawBody> read_raw_body(const std::filesystem::path& path) {
-  if (is_gltf(path)) return read_gltf(path);
-  if (kind_by_extension(path) == ".bvh") return read_bvh(path);
-  if (kind_by_extension(path) == ".amc") return read_acclaim(path);
-  if (kind_by_extension(path) == ".npz") return read_npz(path);
+  if (const Status ok = check_input_file(path); !ok) return ok.error();
+  if (const Reader reader = find_reader(path)) return reader(path);
   return bad_input(path.string(),
-                   "is not a .bvh, .amc, .npz, .glb, .gltf, .vrm or .vrma file",
-                   "convert it to one of these");
+                   "marey reads no motion or body of this kind",
+                   "give a file of one of these kinds: " + body_extensions());
 }
 
 }  // namespace marey::app

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/base/result.h"
@@ -16,6 +17,12 @@ namespace marey::app {
 
 /// Returns true if the file's extension is .glb, .gltf, .vrm or .vrma.
 [[nodiscard]] bool is_gltf(const std::filesystem::path& path);
+
+/// Returns the extensions of all files that read_raw_body() reads, for help and messages:
+/// ".bvh, .amc, .npz, .glb, .gltf, .vrm or .vrma".
+[[nodiscard]] std::string body_extensions();
+/// Returns true if the file's extension is one of body_extensions().
+[[nodiscard]] bool is_body_file(const std::filesystem::path& path);
 
 /// The content of a .bvh, .amc (with its .asf in the same folder), .npz, .glb, .gltf,
 /// .vrm or .vrma file, in the file's own frame.

@@ -13,6 +13,7 @@
 
 #include "app/plan/plan_json.h"
 #include "app/plan/plan_page.h"
+#include "app/shell/option_checks.h"
 #include "calib/plan/body_heights.h"
 #include "calib/plan/plan_calibration.h"
 #include "capture/tags/corner_sigma.h"
@@ -140,7 +141,7 @@ void add_plan_command(CLI::App& app,
                       std::function<Exit(Console&)>& chosen) {
   CLI::App* command =
       app.add_subcommand("plan", "Predict what cameras will see, and how well");
-  command->add_option("plan", args.plan, "plan.toml, or a calibration.toml")->required();
+  command->add_option("PLAN", args.plan, "plan.toml, or a calibration.toml")->required();
   command->add_option("-o,--out", args.out, "Folder for plan.json and plan.html")
       ->required();
   command
@@ -149,8 +150,8 @@ void add_plan_command(CLI::App& app,
           [&args](const std::string& word) {
             auto size_m = recordings::parse_length_m(word);
             if (!size_m) {
-              throw CLI::ValidationError(
-                  "--tag", size_m.error().cause + ". Next: " + size_m.error().next);
+              throw RejectedArguments("--tag: " + size_m.error().cause,
+                                      size_m.error().next);
             }
             args.tag_size_m = *size_m;
           },
@@ -159,7 +160,7 @@ void add_plan_command(CLI::App& app,
       ->type_name("LENGTH");
   command
       ->add_option("--height", args.stature_m, "Stature [m]; default the plan's, or 1.75")
-      ->check(CLI::Range(0.3, 10.0));
+      ->check(between(0.3, 10.0));
   command->add_flag("--json", args.json, "Print plan.json instead of the table");
   command->callback(
       [&] { chosen = [&args](Console& console) { return run_plan(args, console); }; });

@@ -5,6 +5,8 @@
 #include <memory>
 #include <utility>
 
+#include "app/shell/option_checks.h"
+
 namespace marey::app {
 namespace {
 
@@ -19,8 +21,7 @@ CLI::Option* add_parsed(CLI::App& command,
   const auto take = [&value, parse, name](const CLI::results_t& words) {
     auto parsed = parse(words.front());
     if (!parsed) {
-      throw CLI::ValidationError(name,
-                                 parsed.error().cause + ". Next: " + parsed.error().next);
+      throw RejectedArguments(name + ": " + parsed.error().cause, parsed.error().next);
     }
     value = *std::move(parsed);
     return true;
@@ -94,8 +95,8 @@ void add_tags(CLI::App& app,
       "Fold pairs of tags to plates for limbs, at 45 degrees to either side");
   command->callback([&, session, ids, size] {
     if (session->count() == 0 && (ids->count() == 0 || size->count() == 0)) {
-      throw CLI::ValidationError(
-          "tags", "nothing to print. Next: give --session, or --ids and --size");
+      throw RejectedArguments("there is nothing to print",
+                              "give --session, or --ids and --size");
     }
     chosen = [&args](Console& console) { return run_tags(args, console); };
   });
@@ -104,7 +105,7 @@ void add_tags(CLI::App& app,
 void add_aprilgrid(CLI::App& command,
                    PrintArguments& args,
                    std::vector<CLI::Option*>& own) {
-  const auto count = CLI::Range(1, 50);
+  const auto count = whole_between(1, 50);
   AprilGrid& grid = args.grid;
   own = {
       command.add_option(
@@ -116,7 +117,7 @@ void add_aprilgrid(CLI::App& command,
           command, "--tag-size", "Edge of a tag's square; default 22mm", grid.tag_size_m),
       add_length(command, "--gap", "Between two squares; default 6.6mm", grid.gap_m),
       command.add_option("--first-id", grid.first_id, "The tag at the origin; default 0")
-          ->check(CLI::Range(0, 65535))};
+          ->check(whole_between(0, 65535))};
   for (CLI::Option* option : own) option->group("AprilGrid");
 }
 
@@ -141,7 +142,7 @@ void add_charuco(CLI::App& command,
 void add_squares(CLI::App& command,
                  PrintArguments& args,
                  std::vector<CLI::Option*>& own) {
-  const auto count = CLI::Range(2, 50);
+  const auto count = whole_between(2, 50);
   own = {command
              .add_option("--squares-x",
                          args.squares_x,
@@ -167,7 +168,7 @@ void add_board(CLI::App& app,
   CLI::Option* type =
       command
           ->add_option("--type", args.type, "aprilgrid (default), charuco or chessboard")
-          ->check(CLI::IsMember({"aprilgrid", "charuco", "chessboard"}));
+          ->check(one_of({"aprilgrid", "charuco", "chessboard"}));
   type->excludes(session);
   command->add_flag(
       "--one-page", args.one_page, "Refuse a board that is larger than the page");
@@ -189,9 +190,9 @@ void add_board(CLI::App& app,
     const auto refuse = [&](const std::vector<CLI::Option*>& options) {
       for (CLI::Option* option : options) {
         if (option->count() == 0) continue;
-        throw CLI::ValidationError(
-            option->get_name(),
-            "does not belong to --type " + args.type + ". Next: leave it out");
+        throw RejectedArguments(
+            option->get_name() + " does not belong to --type " + args.type,
+            "leave it out");
       }
     };
     if (args.type != "aprilgrid") refuse(of_grid);

@@ -11,10 +11,13 @@
 
 #include "app/check/assess_results.h"
 #include "app/convert/mannequin_commands.h"
+#include "app/motion/raw_body.h"
 #include "app/process/earlier_calibration.h"
+#include "app/shell/file_url.h"
 #include "app/shell/findings.h"
 #include "app/shell/option_checks.h"
 #include "app/shell/program_name.h"
+#include "recordings/session/session.h"
 
 namespace marey::app {
 namespace {
@@ -36,6 +39,7 @@ Status run_stages(Stage stage, Pipeline& pipeline) {
 /// caller prints them as errors.
 void print_results(const Report& report,
                    const std::filesystem::path& out,
+                   ViewHint hint,
                    Console& console) {
   std::array<char, 200> text{};
   for (const ReportCamera& camera : report.cameras) {
@@ -64,7 +68,9 @@ void print_results(const Report& report,
   print_warnings(console, report.findings);
   if (!report.trials.empty()) {
     console.say("report: " + (out / "report.html").string());
-    console.say("to see it move: " + shell_command({"marey", "view", out.string()}));
+    if (hint == ViewHint::kPrinted) {
+      console.say("to see it move: " + shell_command({"marey", "view", out.string()}));
+    }
   } else if (report.cameras_are_assessed) {
     console.say("report: " + (out / "calibration.html").string());
   }
@@ -77,7 +83,7 @@ void add_session_command(CLI::App& app,
                          SessionArguments& args,
                          std::function<Exit(Console&)>& chosen) {
   CLI::App* command = app.add_subcommand(name, help);
-  command->add_option("session", args.pipeline.session, "session.toml, or its folder")
+  command->add_option("SESSION", args.pipeline.session, "session.toml, or its folder")
       ->required();
   command->add_option("-o,--out", args.pipeline.out, "Folder for the results")
       ->required();
@@ -85,9 +91,10 @@ void add_session_command(CLI::App& app,
       "--media", args.media, "Folder that the session's video paths are relative to");
   if (stage == Stage::kSolve || stage == Stage::kProcess) {
     command
-        ->add_option("-a,--avatar",
-                     args.pipeline.avatars,
-                     "Body to put the motion on (.glb, .vrm, .bvh); may be repeated")
+        ->add_option(
+            "-a,--avatar",
+            args.pipeline.avatars,
+            "Body to put the motion on: " + body_extensions() + "; may be repeated")
         // One avatar per option: the next argument may be the session.
         ->allow_extra_args(false);
   }
@@ -99,7 +106,7 @@ void add_session_command(CLI::App& app,
                      args.pipeline.lens,
                      "Lens of the cameras, instead of the session's: auto, "
                      "brown-conrady, rational or fisheye")
-        ->check(CLI::IsMember(lenses));
+        ->check(one_of(lenses));
   }
   command->add_flag("--json", args.json, "Print the figures as JSON on standard output");
   command->callback([&, stage] {
@@ -110,12 +117,22 @@ void add_session_command(CLI::App& app,
   });
 }
 
+/// Checks what would end the demo after its bodies are written.
+Status check_before_demo(const std::filesystem::path& sample,
+                         const std::filesystem::path& out) {
+  if (const Status ok = check_out_folder(out); !ok) return ok;
+  const auto session = recordings::read_session(sample);
+  if (!session) return session.error();
+  return recordings::check_files(*session);
+}
+
 }  // namespace
 
 Exit run_session(Stage stage,
                  const PipelineOptions& options,
                  bool json,
-                 Console& console) {
+                 Console& console,
+                 ViewHint hint) {
   if (const Status ok = check_out_folder(options.out); !ok) {
     return console.fail(ok.error());
   }
@@ -142,7 +159,7 @@ Exit run_session(Stage stage,
     return console.fail(ok.error());
   }
   const Report& report = pipeline->report();
-  print_results(report, options.out, console);
+  print_results(report, options.out, hint, console);
   if (json) std::fputs(report_json_text(report).c_str(), stdout);
   // The other results are written. The exit code still shows that a result is missing.
   const Exit exit = print_failures(console, report.findings);
@@ -170,15 +187,18 @@ Exit run_demo(const std::filesystem::path& sample,
   options.session = sample;
   options.out = out;
   options.avatars = {bodies / "child.glb", bodies / "giant.glb"};
+  if (const Status ok = check_before_demo(sample, out); !ok) {
+    return console.fail(ok.error());
+  }
   Exit made = run_mannequin(child, {}, options.avatars[0], console);
   if (made == Exit::kOk) made = run_mannequin(giant, broad, options.avatars[1], console);
   if (made != Exit::kOk) return made;
-  const Exit done = run_session(Stage::kProcess, options, false, console);
+  const Exit done =
+      run_session(Stage::kProcess, options, false, console, ViewHint::kOmitted);
   if (done != Exit::kOk) return done;
-  std::error_code ignored;
-  const auto page = std::filesystem::absolute(out / "report.html", ignored);
+  const std::string page = file_url(out / "report.html");
   const std::string next = shell_command({"marey", "view", out.string()});
-  std::printf("results: %s\npage:    file://%s\nnext:    %s\n",
+  std::printf("results: %s\npage:    %s\nnext:    %s\n",
               out.c_str(),
               page.c_str(),
               console.as_called(next).c_str());

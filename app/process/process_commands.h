@@ -25,15 +25,19 @@ struct DemoArguments {
   std::filesystem::path out;
 };
 
+/// Use of the message with the command that shows the results.
+enum class ViewHint { kPrinted, kOmitted };
+
 /// Runs `marey track | calibrate | solve | process`. With `json`, it prints report.json
 /// on standard output.
 [[nodiscard]] Exit run_session(Stage stage,
                                const PipelineOptions& options,
                                bool json,
-                               Console& console);
+                               Console& console,
+                               ViewHint hint = ViewHint::kPrinted);
 
 /// Runs `marey demo`: processes the sample session on two mannequins. `sample` is the
-/// folder of the session.
+/// folder of the session. Writes nothing if the session cannot be read.
 [[nodiscard]] Exit run_demo(const std::filesystem::path& sample,
                             const std::filesystem::path& out,
                             Console& console);

@@ -178,16 +178,16 @@ std::optional<Error> CameraRecorder::trouble(Timestamp end) const {
   const std::string where = "camera " + name_;
   if (error_) return error_;
   if (has_warned_of_change_) {
-    return Error{Errc::kDevice,
-                 where,
-                 "it came back with another size or format, of which no frames were kept",
-                 "check the camera with marey doctor, and record again"};
+    return Error{
+        Errc::kDevice,
+        where,
+        "after a reconnect its pictures have another size or format; these frames were "
+        "not kept",
+        "check the camera with marey doctor, and record again"};
   }
   if (frames_ == 0) {
-    return Error{Errc::kDevice,
-                 where,
-                 "not a single frame came from it",
-                 "check the camera with marey doctor"};
+    return Error{
+        Errc::kDevice, where, "it sent no frames", "check the camera with marey doctor"};
   }
   constexpr double kMaxSilence_s = 1.0;
   constexpr double kMaxPeriods = 3.0;

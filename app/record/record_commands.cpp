@@ -107,7 +107,7 @@ void add_record_command(CLI::App& app,
                         RecordArguments& args,
                         std::function<Exit(Console&)>& chosen) {
   CLI::App* command = app.add_subcommand("record", "Record a trial from the cameras");
-  command->add_option("session", args.session, "session.toml, or its folder")->required();
+  command->add_option("SESSION", args.session, "session.toml, or its folder")->required();
   command->add_option("-o,--out", args.out, "Folder of the take")->required();
   command->add_option("--trial", args.trial, "The session's trial to record")->required();
   command->add_option("--seconds", args.seconds, "Stop by itself after so long")

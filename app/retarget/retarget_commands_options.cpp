@@ -5,7 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/motion/motion_files.h"
 #include "app/motion/neutral.h"
+#include "app/motion/raw_body.h"
 #include "app/motion/retarget_files.h"
 #include "app/retarget/retarget_commands.h"
 #include "app/shell/option_checks.h"
@@ -23,9 +25,9 @@ void add_result_options(CLI::App& command, RetargetArguments& args) {
                   "and vrma, if the body can have them")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember(formats));
+      ->check(one_of(formats));
   command.add_option("--bvh-dialect", args.bvh_dialect, "Program that reads the .bvh")
-      ->check(CLI::IsMember({"blender", "mobu", "maya", "unity"}));
+      ->check(one_of({"blender", "mobu", "maya", "unity"}));
   command
       .add_option_function<double>(
           "--rate",
@@ -64,7 +66,7 @@ void add_body_options(CLI::App& command, RetargetArguments& args) {
             args.options.retarget.root = roots.at(word);
           },
           "Length that scales the path of the root; default leg-length")
-      ->check(CLI::IsMember(roots))
+      ->check(one_of_keys(roots))
       ->type_name("WORD");
   using Lengths = retarget::WorldLengths;
   const std::map<std::string, Lengths> lengths{{"scaled", Lengths::kScaled},
@@ -75,7 +77,7 @@ void add_body_options(CLI::App& command, RetargetArguments& args) {
             option,
             [&into, lengths](const std::string& word) { into = lengths.at(word); },
             help)
-        ->check(CLI::IsMember(lengths))
+        ->check(one_of_keys(lengths))
         ->type_name("WORD");
   };
   add_lengths("--path",
@@ -102,23 +104,23 @@ void add_retarget_command(CLI::App& app,
                           RetargetArguments& args,
                           std::function<Exit(Console&)>& chosen) {
   CLI::App* command = app.add_subcommand("retarget", "Put a motion on other bodies");
-  command->add_option("motion", args.motion, ".bvh, .amc, .glb, .vrm or .vrma")
-      ->required();
+  command->add_option("MOTION", args.motion, "Motion: " + body_extensions())->required();
   command->add_option(
-      "avatars", args.avatars, "Bodies: .glb, .gltf, .vrm or .bvh, one or many");
+      "AVATAR", args.avatars, "Bodies, one or many: " + body_extensions());
   command->add_option("-a,--avatar", args.more_avatars, "A body; may be repeated")
       ->allow_extra_args(false);
   command
       ->add_option("-o,--out",
                    args.out,
-                   "Result: a folder, or for one avatar a .glb, .bvh, .vrma, .npz, .csv "
-                   "or .mot")
+                   "Result: a folder, or for one avatar a file: " + motion_extensions())
       ->required();
   add_body_options(*command, args);
   add_result_options(*command, args);
   command->callback([&] {
     if (args.avatars.empty() && args.more_avatars.empty()) {
-      throw CLI::RequiredError("an avatar");
+      throw RejectedArguments("AVATAR is missing",
+                              "give a body: " + body_extensions() +
+                                  "; marey retarget --help describes the arguments");
     }
     args.options.retarget.adapt_ground = !args.no_ground;
     if (!args.no_hands) args.options.retarget.hands.emplace();

@@ -62,10 +62,9 @@ Result<bool> is_file(const RetargetArguments& args, std::size_t avatars) {
   }
   // Assumes an unsupported file format, not a folder with a point in its name.
   if (avatars == 1 && args.formats.empty() && args.out.has_extension()) {
-    return bad_input(
-        args.out.string(),
-        "cannot write a \"" + kind_by_extension(args.out) + "\" file",
-        "name the result .glb, .bvh, .vrma, .npz, .csv or .mot, or a folder");
+    return bad_input(args.out.string(),
+                     "cannot write a \"" + kind_by_extension(args.out) + "\" file",
+                     "name the result " + motion_extensions() + ", or a folder");
   }
   return false;
 }

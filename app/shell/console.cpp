@@ -9,19 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "core/base/printable.h"
+
 namespace marey::app {
 namespace {
 
 using Seconds = std::chrono::duration<double>;
-
-/// Replaces control characters by "?", as text from files of unknown origin may contain
-/// any byte.
-std::string on_one_line(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
-  }
-  return text;
-}
 
 std::string bar(const std::string& label, int done, int total, double elapsed_s) {
   std::array<char, 200> text{};
@@ -109,7 +102,7 @@ void Console::say(const std::string& text) {
   if (style_ == ProgressStyle::kJson) {
     print_json({{"message", text}});
   } else {
-    std::fprintf(stderr, "%s\n", on_one_line(as_called(text)).c_str());
+    std::fprintf(stderr, "%s\n", printable(as_called(text)).c_str());
   }
 }
 
@@ -119,7 +112,7 @@ void Console::warn(const std::string& text) {
   if (style_ == ProgressStyle::kJson) {
     print_json({{"warning", text}});
   } else {
-    std::fprintf(stderr, "warning: %s\n", on_one_line(as_called(text)).c_str());
+    std::fprintf(stderr, "warning: %s\n", printable(as_called(text)).c_str());
   }
 }
 
@@ -129,7 +122,7 @@ Exit Console::fail(const Error& error) {
   if (style_ == ProgressStyle::kJson) {
     print_json({{"error", error.message()}, {"exit_code", exit_for(error.code)}});
   } else {
-    std::fprintf(stderr, "error: %s\n", on_one_line(as_called(error.message())).c_str());
+    std::fprintf(stderr, "error: %s\n", printable(as_called(error.message())).c_str());
   }
   return exit_for(error.code);
 }

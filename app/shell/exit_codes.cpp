@@ -8,6 +8,8 @@ Exit exit_for(Errc code) {
   switch (code) {
     case Errc::kInternal:
       return Exit::kInternal;
+    case Errc::kUsage:
+      return Exit::kUsage;
     case Errc::kBadInput:
       return Exit::kBadInput;
     case Errc::kQuality:

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/shell/option_checks.h"
+#include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
 
 namespace marey::app {
@@ -29,17 +31,37 @@ std::vector<std::string> names_of_commands(const CLI::App& app) {
   return names;
 }
 
-std::vector<std::string> names_of_options(const CLI::App& command) {
-  std::vector<std::string> names;
+/// Appends the names of the options that are not in the list yet: every command has
+/// --help.
+void add_names_of_options(const CLI::App& command, std::vector<std::string>& names) {
   for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_lnames()) {
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
   }
-  return names;
 }
 
-std::string nearest_of(std::string_view wrong, const std::vector<std::string>& names) {
+/// Returns the next step for a wrong word: the name that the user probably meant, else
+/// the names if they are few, then `help`. `before` stands before each name.
+std::string next_for(std::string_view wrong,
+                     const std::vector<std::string>& names,
+                     const std::string& before,
+                     const std::string& help) {
+  constexpr std::size_t kMaxListed = 8;
   const std::vector<std::string_view> views(names.begin(), names.end());
-  return suggestion(wrong, views);
+  if (const auto meant = meant_word(wrong, views)) {
+    return std::string("perhaps you mean \"")
+        .append(before)
+        .append(*meant)
+        .append("\"; ")
+        .append(help);
+  }
+  if (names.size() > kMaxListed) return help;
+  std::string list;
+  for (const std::string& name : names) {
+    list += (list.empty() ? "\"" : ", \"") + before + name + "\"";
+  }
+  return "choose one of " + list + "; " + help;
 }
 
 /// The words that no command or option took, in the order of the command line: CLI11
@@ -58,52 +80,134 @@ std::vector<std::string> words_left(const CLI::App& app,
   return ordered;
 }
 
-Error refused(std::string where, std::string cause, std::string next) {
-  return {Errc::kBadInput, std::move(where), std::move(cause), std::move(next)};
+/// Returns the name of an option without its dashes and its value.
+std::string bare_name(const std::string& option) {
+  const std::string name = option.substr(0, option.find('='));
+  return name.substr(std::min(name.find_first_not_of('-'), name.size()));
 }
 
 Error without_command(const CLI::App& app, const std::vector<std::string>& left) {
   const auto word = std::ranges::find_if_not(left, is_option);
   if (word != left.end()) {
-    return refused(*word,
-                   "there is no such command",
-                   nearest_of(*word, names_of_commands(app)) +
-                       "; marey --help describes the commands");
+    return bad_usage(
+        *word,
+        "there is no such command",
+        next_for(
+            *word, names_of_commands(app), "", "marey --help describes the commands"));
   }
   if (!left.empty()) {
-    return refused(left.front(),
-                   "there is no such option",
-                   nearest_of(left.front(), names_of_options(app)) +
-                       "; options of a command follow its name");
+    std::vector<std::string> known;
+    add_names_of_options(app, known);
+    return bad_usage(left.front(),
+                     "there is no such option",
+                     next_for(bare_name(left.front()),
+                              known,
+                              "--",
+                              "options of a command follow its name"));
   }
-  return refused(
+  return bad_usage(
       "marey",
       "no command is given",
       "run marey demo to see a whole session, or marey --help for the commands");
 }
 
-std::optional<Error> superfluous(const CLI::App& app,
-                                 const CLI::App& command,
-                                 const std::string& called,
+/// The words of a command line that ended with an error.
+struct RefusedCommand {
+  const CLI::App& app;
+  const CLI::App& command;
+  std::string called;  ///< "marey process".
+
+  [[nodiscard]] std::string help(std::string_view what) const {
+    return (called + " --help describes the ").append(what);
+  }
+  /// Returns the options of the command, then those of the program.
+  [[nodiscard]] std::vector<const CLI::Option*> options() const {
+    std::vector<const CLI::Option*> all = command.get_options();
+    for (const CLI::Option* option : app.get_options()) all.push_back(option);
+    return all;
+  }
+};
+
+std::optional<Error> superfluous(const RefusedCommand& refused,
                                  const std::vector<std::string>& left) {
   const auto option = std::ranges::find_if(left, is_option);
   if (option != left.end()) {
-    const std::string name = option->substr(0, option->find('='));
     // Options of the program may follow a command.
-    std::vector<std::string> known = names_of_options(command);
-    for (std::string& other : names_of_options(app)) known.push_back(std::move(other));
-    return refused(
-        called,
-        "there is no option " + name,
-        nearest_of(name, known) + "; " + called + " --help describes the options");
+    std::vector<std::string> known;
+    add_names_of_options(refused.command, known);
+    add_names_of_options(refused.app, known);
+    return bad_usage(refused.called,
+                     "there is no option " + option->substr(0, option->find('=')),
+                     next_for(bare_name(*option), known, "--", refused.help("options")));
   }
   if (left.empty()) return std::nullopt;
   std::string words;
-  for (const std::string& word : left) words += " \"" + word + "\"";
-  return refused(called,
-                 "these arguments are too many:" + words,
-                 "leave them out, and put paths with spaces in quotation marks; " +
-                     called + " --help describes the arguments");
+  for (const std::string& word : left) words += " " + in_quotes(word);
+  return bad_usage(refused.called,
+                   "these arguments are too many:" + words,
+                   "leave them out, and put paths with spaces in quotation marks; " +
+                       refused.help("arguments"));
+}
+
+/// Returns the error for an argument that is required and missing.
+std::optional<Error> missing(const RefusedCommand& refused) {
+  for (const CLI::Option* option : refused.options()) {
+    if (!option->get_required() || option->count() > 0) continue;
+    const std::string name = option->get_name();
+    const std::string& description = option->get_description();
+    return bad_usage(
+        refused.called,
+        name + " is missing",
+        "give " + name + ": " + description + "; " + refused.help("arguments"));
+  }
+  return std::nullopt;
+}
+
+/// Returns the error for two options that exclude each other.
+std::optional<Error> excluded(const RefusedCommand& refused) {
+  for (const CLI::Option* option : refused.options()) {
+    if (option->count() == 0) continue;
+    for (const CLI::Option* other : option->get_excludes()) {
+      if (other->count() == 0) continue;
+      return bad_usage(
+          refused.called,
+          option->get_name() + " and " + other->get_name() + " cannot be used together",
+          "leave one of the two out");
+    }
+  }
+  return std::nullopt;
+}
+
+/// Returns the error for an option whose value is missing, superfluous or not allowed.
+/// `text` is CLI11's, which begins with the option's name.
+Error wrong_value(const RefusedCommand& refused,
+                  const std::string& text,
+                  bool is_about_a_count,
+                  std::span<const char* const> arguments) {
+  for (const CLI::Option* option : refused.options()) {
+    const std::string name = option->get_name();
+    const bool is_flag = option->get_items_expected_max() == 0;
+    const bool has_value = std::ranges::any_of(
+        arguments, [&](std::string_view word) { return word.starts_with(name + "="); });
+    if (is_flag && has_value && text.find(name) != std::string::npos) {
+      return bad_usage(refused.called,
+                       name + " takes no value",
+                       "give " + name + " alone; " + refused.help("options"));
+    }
+    if (!text.starts_with(name + ": ")) continue;
+    if (!is_about_a_count) {
+      return bad_usage(refused.called,
+                       name + text.substr(name.size() + 1),
+                       refused.help("values of options"));
+    }
+    const bool is_repeated = option->count() > 1;
+    return bad_usage(refused.called,
+                     name + (is_repeated ? " is given more than once" : " has no value"),
+                     is_repeated ? "give it once; " + refused.help("options")
+                                 : "give its value: " + option->get_description() + "; " +
+                                       refused.help("options"));
+  }
+  return bad_usage(refused.called, text, refused.help("values of options"));
 }
 
 }  // namespace
@@ -112,22 +216,27 @@ Error usage_error(const CLI::App& app,
                   const CLI::ParseError& problem,
                   std::span<const char* const> arguments) {
   const std::vector<std::string> left = words_left(app, arguments);
-  const std::string text = problem.what();
   const auto commands = app.get_subcommands();
-  const std::string called =
-      commands.empty() ? "marey" : "marey " + commands.front()->get_name();
-  const bool is_about_a_value = problem.get_name() == "ValidationError" ||
-                                problem.get_name() == "ConversionError" ||
-                                problem.get_name() == "ArgumentMismatch";
+  const CLI::App& command = commands.empty() ? app : *commands.front();
+  const RefusedCommand refused{
+      app, command, commands.empty() ? "marey" : "marey " + command.get_name()};
+  if (const auto* own = dynamic_cast<const RejectedArguments*>(&problem)) {
+    return bad_usage(refused.called, own->what(), own->next());
+  }
+  const bool is_about_a_count = problem.get_name() == "ArgumentMismatch";
+  const bool is_about_a_value = is_about_a_count ||
+                                problem.get_name() == "ValidationError" ||
+                                problem.get_name() == "ConversionError";
   if (is_about_a_value) {
-    return refused(called, text, called + " --help describes the values of options");
+    return wrong_value(refused, problem.what(), is_about_a_count, arguments);
   }
   if (commands.empty()) return without_command(app, left);
-  if (const auto error = superfluous(app, *commands.front(), called, left)) return *error;
+  if (const auto error = superfluous(refused, left)) return *error;
   if (problem.get_name() == "ExcludesError") {
-    return refused(called, text, "leave one of the two out");
+    if (const auto error = excluded(refused)) return *error;
   }
-  return refused(called, text, "add it; " + called + " --help describes the arguments");
+  if (const auto error = missing(refused)) return *error;
+  return bad_usage(refused.called, problem.what(), refused.help("arguments"));
 }
 
 }  // namespace marey::app

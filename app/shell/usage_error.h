@@ -14,8 +14,8 @@ namespace marey::app {
 /// no command, an unknown option, a missing or superfluous argument, or a value that an
 /// option does not take. The first of these that applies is the cause; the next step is
 /// the nearest command or option, or the command that prints the help.
-/// Preconditions: `arguments` are those that `app` parsed, with the program's name first;
-/// `problem` is not a request for help or for the version.
+/// The cause has no text of the parser. Preconditions: `app` parsed `arguments`, with the
+/// program's name first; `problem` is not a request for help or for the version.
 [[nodiscard]] Error usage_error(const CLI::App& app,
                                 const CLI::ParseError& problem,
                                 std::span<const char* const> arguments);

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/motion/raw_body.h"
 #include "app/shell/option_checks.h"
 #include "app/shell/stop_signal.h"
 #include "app/view/view_page.h"
@@ -124,7 +125,7 @@ Exit run_view(const ViewArguments& args, Console& console) {
 
 void add_page_options(CLI::App& command, PageServerOptions& options) {
   command.add_option("--port", options.port, "Port of the page; 0: any free port")
-      ->check(CLI::Range(0, 65535));
+      ->check(whole_between(0, 65535));
   command.add_flag(
       "--lan", options.lan, "Allow other machines, by an address with a token");
   command.add_option("--web-root",
@@ -140,16 +141,18 @@ void add_view_command(CLI::App& app,
   CLI::App* command = app.add_subcommand(
       "view", "Show a motion, markers, cameras or results in a browser");
   command
-      ->add_option("what",
+      ->add_option("FILE",
                    args.choice.what,
-                   ".bvh, .amc, .glb, .gltf, .vrm, .vrma, .c3d, .trc, calibration.toml, "
-                   "a folder of results or a take of marey live")
+                   "Motion (" + body_extensions() +
+                       "), markers (.c3d or .trc), a calibration.toml, a folder of "
+                       "results or a take of marey live")
       ->required();
   command->add_option("--trial", args.choice.trial, "Which trial of a folder of results");
   command
-      ->add_option("-a,--avatar",
-                   args.choice.avatars,
-                   "Body to retarget the motion to (.glb, .vrm, .bvh); may be repeated")
+      ->add_option(
+          "-a,--avatar",
+          args.choice.avatars,
+          "Body to retarget the motion to: " + body_extensions() + "; may be repeated")
       ->allow_extra_args(false);
   command->add_option("-x,--constraints",
                       args.constraints,

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/motion/raw_body.h"
 #include "app/shell/program_name.h"
 #include "app/view/view_cameras.h"
 #include "app/view/view_figure.h"
 #include "app/view/view_live_take.h"
 #include "app/view/view_trial.h"
 #include "core/base/extension.h"
+#include "core/base/input_file.h"
 #include "core/resample.h"
 #include "recordings/markers/marker_file.h"
 #include "recordings/session/calibration_file.h"
@@ -106,22 +108,19 @@ Result<ViewedRecording> folder_view(const fs::path& folder, const std::string& w
 
 Result<ViewedRecording> any_view(const fs::path& what, const std::string& trial) {
   std::error_code ignored;
-  if (!fs::exists(what, ignored)) {
-    return bad_input(what.string(), "does not exist", "check the path");
-  }
+  if (!fs::exists(what, ignored)) return check_input_file(what).error();
   if (is_live_take(what)) return read_live_take_view(what);
   if (fs::is_directory(what, ignored)) return folder_view(what, trial);
   const std::string kind = kind_by_extension(what);
-  if (is_gltf(what) || kind == ".bvh" || kind == ".amc" || kind == ".npz") {
-    return motion_view(what);
-  }
+  if (is_body_file(what)) return motion_view(what);
   if (kind == ".c3d" || kind == ".trc") return marker_view(what);
   if (kind == ".toml" && recordings::is_calibration(what)) return camera_view(what);
   return bad_input(
       what.string(),
       "is not a kind of file that can be shown",
-      "give a motion (.bvh, .amc, .npz, .glb, .vrm, .vrma), markers (.c3d, .trc), a "
-      "calibration.toml, a folder of results or a take of marey live");
+      "give a motion (" + body_extensions() +
+          "), markers (.c3d or .trc), a calibration.toml, a folder of results or a take "
+          "of marey live");
 }
 
 /// Resamples the motion to the recording's rate, from its first frame on.

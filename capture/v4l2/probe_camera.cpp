@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdarg>
 #include <cstdio>
 
-#include "capture/v4l2/v4l2_errors.h"
 #include "capture/v4l2/v4l2_kernel.h"
 
 namespace marey::capture {
@@ -173,7 +173,7 @@ CameraProbe probe_camera(const DeviceRequest& request,
   auto device = V4l2Device::open(request, kernel);
   if (!device) {
     check.trouble = device.error();
-    check.in_use = device.error().cause == kInUse;
+    check.in_use = device.error().os_error == EBUSY;
     return check;
   }
   check.settings = device->settings();

@@ -55,7 +55,9 @@ Error not_a_camera(const std::string& path, const std::string& what_it_is) {
                "`marey doctor` lists all cameras");
 }
 
-Error device_error(const std::string& path, V4l2Step step, int number) {
+namespace {
+
+Error plain_error(const std::string& path, V4l2Step step, int number) {
   const bool missing = number == ENOENT || number == ENOTDIR;
   if (step == V4l2Step::kOpen && missing) {
     return error(path, "the device does not exist", kSeeDoctor);
@@ -75,7 +77,7 @@ Error device_error(const std::string& path, V4l2Step step, int number) {
           "and in again");
     case EBUSY:
       return error(path,
-                   kInUse,
+                   "another program is using it",
                    "close that program (a video call, a browser, OBS); `fuser -v " +
                        path + "` names it");
     case ENOSPC:
@@ -91,6 +93,14 @@ Error device_error(const std::string& path, V4l2Step step, int number) {
     default:
       return other_error(path, step, number);
   }
+}
+
+}  // namespace
+
+Error device_error(const std::string& path, V4l2Step step, int number) {
+  Error error = plain_error(path, step, number);
+  error.os_error = number;
+  return error;
 }
 
 }  // namespace marey::capture

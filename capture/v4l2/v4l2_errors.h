@@ -21,11 +21,8 @@ enum class V4l2Step {
   kTakeFrame,
 };
 
-/// Cause of the error for EBUSY.
-inline constexpr const char* kInUse = "another program is using it";
-
 /// Returns an error message with a next step for the errno `number` (ENOSPC, positive) of
-/// a device.
+/// a device. Error::os_error is the number.
 [[nodiscard]] Error device_error(const std::string& path, V4l2Step step, int number);
 
 [[nodiscard]] Error not_a_camera(const std::string& path, const std::string& what_it_is);

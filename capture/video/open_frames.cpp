@@ -21,7 +21,7 @@ Result<RecordingKind> recording_kind(const std::filesystem::path& path,
   const auto status = std::filesystem::status(path, ignored);
   if (!std::filesystem::exists(status)) {
     return bad_input(
-        name, "the video or folder does not exist", "check the path and its spelling");
+        name, "the video or folder does not exist", "check the name and the folder");
   }
   return std::filesystem::is_directory(status) ? RecordingKind::kImageFolder
                                                : RecordingKind::kVideoFile;

@@ -14,6 +14,7 @@ namespace marey {
 /// (docs/formats/exit_codes.md).
 enum class Errc {
   kInternal,  ///< A bug in marey.
+  kUsage,     ///< The command line.
   kBadInput,  ///< A file or setting of the user.
   kQuality,   ///< Done, but the quality is too low.
   kDevice,    ///< A camera, disk or network.
@@ -26,6 +27,7 @@ struct Error {
   std::string where;  ///< File, and line or frame: "walk/cam2.mp4: frame 63".
   std::string cause;  ///< "the video ends after 63 of 127 frames".
   std::string next;   ///< "copy the file from the camera again".
+  int os_error = 0;   ///< errno of the operation that failed; 0: none, or not known.
 
   /// One line: "where: cause. Next: next."
   [[nodiscard]] std::string message() const {
@@ -39,6 +41,12 @@ struct Error {
                                      std::string cause,
                                      std::string next) {
   return {Errc::kBadInput, std::move(where), std::move(cause), std::move(next)};
+}
+
+[[nodiscard]] inline Error bad_usage(std::string where,
+                                     std::string cause,
+                                     std::string next) {
+  return {Errc::kUsage, std::move(where), std::move(cause), std::move(next)};
 }
 
 /// A value or an Error. Has a subset of std::expected's interface, so that it can become

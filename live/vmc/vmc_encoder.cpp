@@ -7,9 +7,6 @@
 namespace marey::live {
 namespace {
 
-constexpr int kMaxPacketBytes = 65507;  // Limit of UDP over IPv4.
-// A bundle of one bone with the longest name, RightMiddleIntermediate.
-constexpr int kMinPacketBytes = 16 + 4 + 20 + 12 + 24 + 7 * 4;
 // Overhead of a text message: bundle, size, address, types, padding. [bytes]
 constexpr int kAroundText = 64;
 

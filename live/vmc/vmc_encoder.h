@@ -15,6 +15,11 @@
 
 namespace marey::live {
 
+/// Smallest limit of a packet: a bundle of one bone with the longest name,
+/// RightMiddleIntermediate. [bytes]
+inline constexpr int kMinPacketBytes = 16 + 4 + 20 + 12 + 24 + 7 * 4;
+inline constexpr int kMaxPacketBytes = 65507;  ///< Limit of UDP over IPv4.
+
 /// State of the sender: /VMC/Ext/OK of VMC 2.7.
 struct VmcStatus {
   bool loaded = true;    ///< The avatar is loaded.
@@ -36,9 +41,8 @@ struct VmcPeriods {
 /// Low-rate messages, sent in the first frame, once a second, and on /VMC/Ext/Set/Req.
 /// Empty texts and absent values are not sent.
 struct VmcInfo {
-  std::optional<int> listen_port =
-      std::nullopt;          ///< Port for commands: /VMC/Ext/Rcv.
-  std::string options = "";  ///< /VMC/Ext/Opt.
+  std::optional<int> listen_port = std::nullopt;  ///< Port for commands: /VMC/Ext/Rcv.
+  std::string options = "";                       ///< /VMC/Ext/Opt.
   /// /VMC/Ext/VRM: sender and receiver must have the same file. A full path reveals
   /// folder names to every receiver; the file name is sufficient.
   std::string vrm_path = "";

@@ -18,13 +18,13 @@ struct Signature {
 
 // The order matters: the last ones are those of whole families.
 constexpr std::array kSignatures{
-    Signature{0, "glTF"sv, "a glTF or VRM file"},
+    Signature{0, "glTF"sv, kGltfKind},
     Signature{4, "ftyp"sv, "a video"},
     Signature{0, "\x1A\x45\xDF\xA3"sv, "a video"},
     Signature{8, "AVI "sv, "a video"},
-    Signature{0, "HIERARCHY"sv, "a BVH motion"},
+    Signature{0, "HIERARCHY"sv, kBvhKind},
     Signature{0, ":ASF"sv, "an ASF skeleton"},
-    Signature{0, "PathFileType"sv, "a TRC file of markers"},
+    Signature{0, "PathFileType"sv, kTrcKind},
     Signature{0, "SQLite format 3"sv, "a recorded take"},
     Signature{0, "PK\x03\x04"sv, "a ZIP archive or an NPZ motion"},
     Signature{0, "%PDF"sv, "a PDF document"},
@@ -33,7 +33,7 @@ constexpr std::array kSignatures{
     Signature{0, "<"sv, "an XML or HTML file"},
     Signature{0, "{"sv, "a JSON file"},
     // Byte 2 of a C3D file is 0x50; byte 1 is the block of its parameters.
-    Signature{1, "\x50"sv, "a C3D file of markers"},
+    Signature{1, "\x50"sv, kC3dKind},
 };
 
 bool is_c3d(std::string_view content) {
@@ -52,7 +52,22 @@ std::string_view other_kind(std::string_view content) {
   }
   // TOML has no null characters.
   const bool is_binary = content.substr(0, 512).find('\0') != std::string_view::npos;
-  return is_binary ? "a binary file"sv : ""sv;
+  return is_binary ? kBinaryKind : ""sv;
+}
+
+Status check_kind(std::string_view content,
+                  const std::string& file,
+                  std::string_view wanted) {
+  if (content.empty()) return empty_file(file);
+  const std::string_view found = other_kind(content);
+  if (found.empty() || found == wanted) return Done{};
+  return bad_input(file,
+                   std::string("this is ").append(found).append(", not ").append(wanted),
+                   "give another file, or correct the extension of this one");
+}
+
+Error empty_file(const std::string& file) {
+  return bad_input(file, "the file is empty", "copy or export it again");
 }
 
 }  // namespace marey::recordings

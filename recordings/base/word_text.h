@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -11,10 +13,15 @@
 
 namespace marey::recordings {
 
-/// Returns the first 40 characters of `word` in quotes, for messages: a broken file may
-/// contain very long words.
+/// Returns the first 40 bytes of `word`, cut at a whole character, in quotes, for
+/// messages: a broken file may contain very long words.
 [[nodiscard]] inline std::string quoted_start(std::string_view word) {
-  return in_quotes(word.substr(0, 40));
+  std::size_t end = std::min<std::size_t>(word.size(), 40);
+  const auto is_inside = [&] {
+    return end < word.size() && (static_cast<unsigned char>(word[end]) & 0xc0U) == 0x80;
+  };
+  while (end > 37 && is_inside()) --end;
+  return in_quotes(word.substr(0, end));
 }
 
 /// Returns `text` with `number` appended.

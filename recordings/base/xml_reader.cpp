@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/base/in_quotes.h"
+#include "core/base/utf8.h"
 #include "core/nearest_word.h"
 #include "recordings/base/number_text.h"
 #include "recordings/base/text_reader.h"
@@ -87,24 +88,10 @@ bool is_control(char c) {
 }  // namespace
 
 bool is_utf8(std::string_view text) {
-  // Lowest code point of each length, which excludes overlong forms.
-  constexpr std::array<std::uint32_t, 4> kMinCodePoint{0, 0x80, 0x800, 0x10000};
-  for (std::size_t i = 0; i < text.size();) {
-    const auto head = static_cast<unsigned char>(text[i]);
-    std::size_t more = 0;
-    if (head >= 0xf0 && head < 0xf8) more = 3;
-    if (head >= 0xe0 && head < 0xf0) more = 2;
-    if (head >= 0xc0 && head < 0xe0) more = 1;
-    if ((more == 0 && head >= 0x80) || more >= text.size() - i) return false;
-    std::uint32_t code = more == 0 ? head : head & (0x3fU >> more);
-    for (std::size_t k = 1; k <= more; ++k) {
-      const auto byte = static_cast<unsigned char>(text[i + k]);
-      if ((byte & 0xc0) != 0x80) return false;
-      code = code << 6 | (byte & 0x3fU);
-    }
-    const bool is_surrogate = code >= 0xd800 && code < 0xe000;
-    if (code < kMinCodePoint[more] || code > 0x10ffff || is_surrogate) return false;
-    i += more + 1;
+  while (!text.empty()) {
+    const auto next = first_utf8(text);
+    if (!next) return false;
+    text.remove_prefix(next->bytes);
   }
   return true;
 }

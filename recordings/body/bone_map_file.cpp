@@ -13,6 +13,7 @@
 #include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
 #include "recordings/base/atomic_file.h"
+#include "recordings/base/toml_kind.h"
 #include "recordings/base/toml_reader.h"
 #include "recordings/base/toml_writer.h"
 
@@ -175,7 +176,7 @@ Result<BoneMap> parse_bone_map(std::string_view text,
       if (in.ok()) read_bone(bones, key, names, map);
     }
   }
-  if (document->mistake) return *document->mistake;
+  if (document->mistake) return mistake_of(*document, TomlKind::kBoneMap);
   return map;
 }
 

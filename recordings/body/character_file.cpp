@@ -12,6 +12,7 @@
 #include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
 #include "recordings/base/atomic_file.h"
+#include "recordings/base/toml_kind.h"
 #include "recordings/base/toml_reader.h"
 #include "recordings/base/toml_writer.h"
 
@@ -269,7 +270,7 @@ Result<CharacterSpec> parse_character_spec(std::string_view text,
     }
   }
   for (TomlReader& load : root.tables("load")) read_load(load, spec.traits.loads);
-  if (document->mistake) return *document->mistake;
+  if (document->mistake) return mistake_of(*document, TomlKind::kCharacter);
   return spec;
 }
 

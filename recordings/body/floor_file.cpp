@@ -8,6 +8,7 @@
 
 #include "core/base/in_quotes.h"
 #include "recordings/base/atomic_file.h"
+#include "recordings/base/toml_kind.h"
 #include "recordings/base/toml_reader.h"
 #include "recordings/base/toml_writer.h"
 
@@ -144,7 +145,7 @@ Result<Floor> parse_floor(std::string_view text, const std::string& file) {
   Floor floor;
   if (root.has("base_m")) floor.base_height_m = root.number("base_m", kHeight);
   for (TomlReader& part : root.tables("part")) read_part(part, floor.parts);
-  if (document->mistake) return *document->mistake;
+  if (document->mistake) return mistake_of(*document, TomlKind::kFloor);
   return floor;
 }
 

@@ -17,6 +17,7 @@
 #include "recordings/base/atomic_file.h"
 #include "recordings/base/motion_limits.h"
 #include "recordings/base/nesting.h"
+#include "recordings/base/other_kind.h"
 #include "recordings/gltf/gltf_extensions.h"
 #include "recordings/gltf/gltf_files.h"
 #include "recordings/gltf/gltf_model.h"
@@ -45,6 +46,9 @@ Result<std::string> json_of(const NamedModel& file, std::string_view bytes) {
       return file.fail(
           "this is a note of Git LFS in place of the file (git lfs pull "
           "fetches it)");
+    }
+    if (const Status ok = check_kind(bytes, file.file, kGltfKind); !ok) {
+      return ok.error();
     }
     return file.fail("this is neither a GLB file nor glTF text");
   }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/input_file.h"
+#include "recordings/base/other_kind.h"
 #include "recordings/markers/c3d.h"
 #include "recordings/markers/c3d_layout.h"
 #include "recordings/markers/c3d_parameters.h"
@@ -48,7 +49,11 @@ Status C3dReader::State::open() {
   std::string head(std::min<std::uint64_t>(size, kMaxHeadBytes), '\0');
   stream->read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(stream->gcount()));
+  if (head.empty()) return empty_file(file);
   const auto section = find_c3d_section(head, file, info.notes);
+  if (!section && other_kind(head) != kBinaryKind) {
+    if (const Status ok = check_kind(head, file, kC3dKind); !ok) return ok.error();
+  }
   if (!section) return section.error();
   info.processor = section->processor;
   info.groups = parse_c3d_parameters(

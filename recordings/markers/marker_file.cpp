@@ -3,7 +3,7 @@
 #include "recordings/markers/marker_file.h"
 
 #include "core/base/extension.h"
-#include "recordings/base/atomic_file.h"
+#include "core/base/input_file.h"
 #include "recordings/markers/c3d_markers.h"
 #include "recordings/markers/trc.h"
 
@@ -18,8 +18,15 @@ Error unknown_kind(const std::filesystem::path& path) {
 
 }  // namespace
 
+Status check_marker_extension(const std::filesystem::path& path) {
+  const std::string kind = kind_by_extension(path);
+  if (kind == ".c3d" || kind == ".trc") return Done{};
+  return unknown_kind(path);
+}
+
 Result<MarkerFile> read_markers(const std::filesystem::path& path,
                                 const MarkerReadOptions& options) {
+  if (const Status ok = check_input_file(path); !ok) return ok.error();
   const std::string kind = kind_by_extension(path);
   if (kind == ".c3d") return read_c3d_markers(path, options);
   if (kind != ".trc") return unknown_kind(path);

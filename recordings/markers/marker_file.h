@@ -14,6 +14,10 @@
 
 namespace marey::recordings {
 
+/// Checks the extension of a file of markers before the work begins. Errors (kBadInput):
+/// it is neither .c3d nor .trc.
+[[nodiscard]] Status check_marker_extension(const std::filesystem::path& path);
+
 /// Reads labelled markers of a C3D or TRC; the extension selects the format. Labels are
 /// made unique and non-empty. Samples at exactly (0, 0, 0), beyond 10 km or not finite
 /// count as not seen. The notes report all such changes.

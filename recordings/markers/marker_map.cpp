@@ -7,6 +7,7 @@
 #include "core/base/in_quotes.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/base/text_reader.h"
+#include "recordings/base/toml_kind.h"
 #include "recordings/base/toml_reader.h"
 
 namespace marey::recordings {
@@ -34,7 +35,7 @@ Result<MarkerMap> parse_marker_map(std::string_view text, const std::string& fil
               "no label in [markers]",
               "add a line for each marker: LASI = \"left_asis\"");
   }
-  if (document->mistake) return *document->mistake;
+  if (document->mistake) return mistake_of(*document, TomlKind::kMarkerMap);
   return map;
 }
 

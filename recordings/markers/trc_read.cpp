@@ -8,6 +8,7 @@
 #include "core/base/assert.h"
 #include "core/base/in_quotes.h"
 #include "recordings/base/motion_limits.h"
+#include "recordings/base/other_kind.h"
 #include "recordings/base/table_cells.h"
 #include "recordings/base/text_reader.h"
 #include "recordings/markers/marker_labels.h"
@@ -233,6 +234,7 @@ class Rows {
 Result<MarkerFile> parse_trc(std::string_view text,
                              const std::string& file,
                              const MarkerReadOptions& options) {
+  if (const Status ok = check_kind(text, file, kTrcKind); !ok) return ok.error();
   MarkerFile out;
   LineReader lines(text);
   Result<TrcHeader> header = read_trc_header(lines, file);

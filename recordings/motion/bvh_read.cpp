@@ -16,6 +16,7 @@
 #include "core/pose.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/base/motion_limits.h"
+#include "recordings/base/other_kind.h"
 #include "recordings/base/text_reader.h"
 #include "recordings/base/word_text.h"
 #include "recordings/body/floor_height.h"
@@ -378,6 +379,7 @@ Result<BvhMotion> parse_bvh(std::string_view text,
                             const std::string& file,
                             const BvhReadOptions& options) {
   MAREY_ASSERT(options.unit_m > 0.0);
+  if (const Status ok = check_kind(text, file, kBvhKind); !ok) return ok.error();
   Result<BvhFile> parsed = BvhParser(text, file, options.unit_m).parse();
   if (!parsed) return parsed.error();
   return motion_of(*std::move(parsed), options.unit_m);

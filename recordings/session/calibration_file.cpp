@@ -14,6 +14,7 @@
 
 #include "core/base/in_quotes.h"
 #include "recordings/base/atomic_file.h"
+#include "recordings/base/toml_kind.h"
 #include "recordings/base/toml_reader.h"
 #include "recordings/base/toml_writer.h"
 #include "recordings/session/calibration_import.h"
@@ -296,7 +297,7 @@ Result<Calibration> parse_calibration(std::string_view text, const std::string& 
     TomlReader metadata = root.table("metadata");
     read_if_there(metadata, "error", kNotNegative, calibration.rms_px);
   }
-  if (document->mistake) return *document->mistake;
+  if (document->mistake) return mistake_of(*document, TomlKind::kCalibration);
   return calibration;
 }
 
@@ -324,12 +325,7 @@ bool is_calibration(const std::filesystem::path& path) {
   if (!text) return false;
   if (is_yaml_or_xml(*text)) return true;
   Result<TomlDocument> document = parse_toml(*text, path.string(), "calibration.md");
-  if (!document) return false;
-  TomlReader root(*document);
-  const std::vector<std::string> keys = root.keys();
-  return std::any_of(keys.begin(), keys.end(), [&](const std::string& key) {
-    return root.is_table(key) && (key == "cameras" || root.table(key).has("matrix"));
-  });
+  return document && toml_kind(*document) == TomlKind::kCalibration;
 }
 
 }  // namespace marey::recordings

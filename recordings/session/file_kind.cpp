@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recordings/session/file_kind.h"
 
-#include <algorithm>
 #include <array>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,6 +10,7 @@
 #include "core/base/extension.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/base/sqlite.h"
+#include "recordings/base/toml_kind.h"
 #include "recordings/base/toml_reader.h"
 #include "recordings/takes/live_take_schema.h"
 #include "recordings/takes/take_schema.h"
@@ -19,33 +18,26 @@
 namespace marey::recordings {
 namespace {
 
-/// Keys of which one is enough, the most specific kinds first.
-struct KindKeys {
-  FileKind kind;
-  std::initializer_list<std::string_view> any_of;
-};
-
 FileKind kind_of_toml(TomlDocument& document) {
-  TomlReader root(document);
-  const std::vector<std::string> keys = root.keys();
-  const bool has_lens = std::any_of(keys.begin(), keys.end(), [&](const auto& key) {
-    return root.is_table(key) && (key == "cameras" || root.table(key).has("matrix"));
-  });
-  if (has_lens) return FileKind::kCalibration;
-  static const std::array kKinds{
-      KindKeys{FileKind::kSession, {"trial", "board", "wand", "media", "tags"}},
-      KindKeys{FileKind::kSubject, {"tips", "joint"}},
-      KindKeys{FileKind::kCharacter,
-               {"avatar", "mass_table", "segment_mass_kg", "limits", "load"}},
-      KindKeys{FileKind::kFloor, {"base_m", "part"}},
-      KindKeys{FileKind::kMarkerMap, {"markers"}},
-      KindKeys{FileKind::kBoneMap, {"bones", "unit_m", "front"}},
-      KindKeys{FileKind::kPlan, {"volume", "tag_size_m", "camera", "tag"}},
-      KindKeys{FileKind::kCharacter, {"subject"}}};
-  for (const KindKeys& kind : kKinds) {
-    for (const std::string_view key : kind.any_of) {
-      if (root.has(key)) return kind.kind;
-    }
+  switch (toml_kind(document)) {
+    case TomlKind::kSession:
+      return FileKind::kSession;
+    case TomlKind::kCalibration:
+      return FileKind::kCalibration;
+    case TomlKind::kSubject:
+      return FileKind::kSubject;
+    case TomlKind::kPlan:
+      return FileKind::kPlan;
+    case TomlKind::kCharacter:
+      return FileKind::kCharacter;
+    case TomlKind::kFloor:
+      return FileKind::kFloor;
+    case TomlKind::kBoneMap:
+      return FileKind::kBoneMap;
+    case TomlKind::kMarkerMap:
+      return FileKind::kMarkerMap;
+    case TomlKind::kUnknown:
+      break;
   }
   return FileKind::kUnknown;
 }

@@ -13,6 +13,7 @@
 #include "core/base/in_quotes.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/base/text_reader.h"
+#include "recordings/base/toml_kind.h"
 #include "recordings/base/toml_reader.h"
 #include "recordings/session/calibration_file.h"
 
@@ -171,7 +172,14 @@ Result<CapturePlan> parse_plan(std::string_view text, const std::string& file) {
   const bool is_plan = root.has("format") || root.has("tag_size_m") ||
                        root.has("volume") ||
                        (root.has("camera") && !root.is_table("camera"));
-  if (!is_plan) return cameras_of_calibration(text, file);
+  if (!is_plan) {
+    const TomlKind kind = toml_kind(*document);
+    if (kind == TomlKind::kCalibration || kind == TomlKind::kUnknown) {
+      return cameras_of_calibration(text, file);
+    }
+    root.fail("", "no camera in it", "add a [[camera]] for each that you plan");
+    return mistake_of(*document, TomlKind::kPlan);
+  }
   root.allow({"format", "tag_size_m", "stature_m", "volume", "tag", "camera"});
   if (root.integer("format", {0, 1e6}) != 1) {
     root.fail("format", "this format is not known", "write format = 1, or update marey");
@@ -192,7 +200,7 @@ Result<CapturePlan> parse_plan(std::string_view text, const std::string& file) {
   if (plan.cameras.empty()) {
     root.fail("", "no [[camera]] in it", "add a [[camera]] for each that you plan");
   }
-  if (document->mistake) return *document->mistake;
+  if (document->mistake) return mistake_of(*document, TomlKind::kPlan);
   return plan;
 }
 

@@ -11,6 +11,7 @@
 #include "core/humanoid.h"
 #include "core/nearest_word.h"
 #include "recordings/base/atomic_file.h"
+#include "recordings/base/toml_kind.h"
 #include "recordings/base/toml_reader.h"
 #include "recordings/base/word_text.h"
 #include "recordings/session/find_trial_conflict.h"
@@ -113,17 +114,16 @@ bool SessionReader::has_a_person() {
   const std::vector<TomlReader> trials = root_.tables("trial");
   return trials.empty() ||
          std::any_of(trials.begin(), trials.end(), [](TomlReader trial) {
-           if (!trial.has("kind")) return true;
-           const std::string kind = trial.text("kind");
+           const std::string kind = trial.has("kind") ? trial.text("kind") : "";
            return kind != name(TrialKind::kCalibration) &&
                   kind != name(TrialKind::kFloor);
          });
 }
 
 void SessionReader::read_media() {
-  media_ = session_.file.parent_path();
-  if (root_.has("media")) media_ /= root_.text("media");
-  if (options_.media) media_ = *options_.media;
+  const fs::path base = session_.file.parent_path();
+  media_ =
+      options_.media.value_or(root_.has("media") ? base / root_.text("media") : base);
 }
 
 void SessionReader::read_subject() {
@@ -393,7 +393,7 @@ Result<Session> read_session(const fs::path& path, const ReadSessionOptions& opt
   Result<TomlDocument> document = parse_toml(*text, session.file.string(), "session.md");
   if (!document) return document.error();
   SessionReader(*document, options, session).read();
-  if (document->mistake) return *document->mistake;
+  if (document->mistake) return mistake_of(*document, TomlKind::kSession);
   return session;
 }
 

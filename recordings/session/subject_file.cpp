@@ -14,6 +14,7 @@
 #include "core/humanoid.h"
 #include "core/nearest_word.h"
 #include "recordings/base/atomic_file.h"
+#include "recordings/base/toml_kind.h"
 #include "recordings/base/toml_reader.h"
 #include "recordings/base/toml_writer.h"
 
@@ -275,7 +276,7 @@ Result<Body> parse_subject(std::string_view text, const std::string& file) {
   for (TomlReader& tag : root.tables("tag")) read_tag(tag, body);
   for (TomlReader& marker : root.tables("marker")) read_marker(marker, body);
   for (TomlReader& warning : root.tables("doubt")) read_warning(warning, body);
-  if (document->mistake) return *document->mistake;
+  if (document->mistake) return mistake_of(*document, TomlKind::kSubject);
   return body;
 }
 

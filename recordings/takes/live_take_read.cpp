@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "recordings/base/sqlite.h"
+#include "core/base/input_file.h"
 #include "recordings/takes/live_take.h"
 #include "recordings/takes/live_take_schema.h"
 #include "recordings/takes/view_bytes.h"
@@ -78,11 +78,9 @@ bool read_instants(sqlite3* database, LiveTake& take) {
 
 Result<LiveTake> read_live_take(const std::filesystem::path& path) {
   const std::string file = path.string();
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) {
-    return bad_input(file,
-                     "the live take does not exist",
-                     "name the folder that marey live --record made");
+  if (const Status ok = check_input_file(path); !ok) {
+    return bad_input(
+        file, ok.error().cause, "name a folder that marey live --record made");
   }
   const auto opened = open_recorded(path);
   if (!opened) return opened.error();

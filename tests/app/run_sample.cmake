@@ -3,8 +3,8 @@
 #
 # cmake -D MAREY=... -D SESSION=... -D STAGES=track+solve -D ROOT=... -D RUN=NAME
 #       [-D CACHE_OF=NAME] -P run_sample.cmake
-# Results go to ROOT/RUN, what each stage said to ROOT/RUN.STAGE.out and .err. Beside them
-# ROOT/avatars. CACHE_OF names a run whose detections are taken over, with their times.
+# Results go to ROOT/RUN, the output of each stage to ROOT/RUN.STAGE.out and .err, avatars
+# to ROOT/avatars. CACHE_OF names a run whose detections are copied, with their file times.
 cmake_minimum_required(VERSION 3.25)
 string(REPLACE "+" ";" stages "${STAGES}")
 file(REMOVE_RECURSE ${ROOT}/${RUN})

@@ -42,7 +42,7 @@ unpack "$common" './usr/src/*'
 unpack "$kbuild" './usr/lib/*'
 unpack v4l2loopback-dkms './usr/src/*'
 
-# Its own makefile names the place where it would be installed.
+# Its makefile would install the module into the running system.
 headers=$work/tree/usr/src/linux-headers-$release
 echo "include $work/tree/usr/src/$common/Makefile" >"$headers/Makefile"
 loopback=$(echo "$work"/tree/usr/src/v4l2loopback-*)

@@ -4,7 +4,7 @@
 # cmake -D PKG_CONFIG=<program> -D COMPILER=<c++> -D INSTALLED=<tree> -D SOURCE=<example>
 #       -D OUT=<program> -D ARGUMENTS=<argument> -D TRUTH=<file> -P run_by_pkg_config.cmake
 #
-# Compiles an example with what pkg-config prints, then runs it (run_example.cmake).
+# Compiles an example with the flags of pkg-config, then runs it (run_example.cmake).
 cmake_minimum_required(VERSION 3.25)
 if(NOT PKG_CONFIG)
   message(FATAL_ERROR "skipped: pkg-config is missing; apt-get install pkgconf")

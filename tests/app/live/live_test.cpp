@@ -329,7 +329,7 @@ TEST(LiveRefuses, MissingOrInvalidInputs) {
   expect_refused({"live", kSample.string()}, 3, "have a device");
   expect_refused(with(played(), {"--vmc", "nobody=127.0.0.1"}), 3, "no avatar");
   expect_refused(with(played(), {"--vmc", "127.0.0.1:99999"}), 3, "99999");
-  expect_refused({"replay", "/nowhere/at/all"}, 3, "the live take does not exist");
+  expect_refused({"replay", "/nowhere/at/all"}, 3, "the file does not exist");
 }
 
 TEST(LiveRefuses, AvatarsThatAreNotHumanoid) {

@@ -85,7 +85,7 @@ TEST(OptionValues, NamedByTheIssueAreRefused) {
            {"adapt", "--root-share", "nan"}}) {
     const ProgramRun run = marey(words);
     EXPECT_EQ(run.exit_code, 2) << words.front();
-    EXPECT_NE(run.err.find("is not a number"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("must be a number"), std::string::npos) << run.err;
   }
 }
 

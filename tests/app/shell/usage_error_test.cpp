@@ -49,14 +49,13 @@ TEST(UsageError, NamesTheNearestOptionOfAMistypedOne) {
 }
 
 TEST(UsageError, NamesAMissingArgument) {
-  expect_usage_error({"process", "session.toml"},
-                     {"--out is required", "process --help"});
-  expect_usage_error({"process", "--out", "x"}, {"session is required"});
+  expect_usage_error({"process", "session.toml"}, {"--out is missing", "process --help"});
+  expect_usage_error({"process", "--out", "x"}, {"SESSION is missing"});
 }
 
 TEST(UsageError, AsksToLeaveOneOfTwoOptionsOut) {
   expect_usage_error({"live", "session.toml", "--calibrate", "--record", "x"},
-                     {"excludes", "leave one of the two out"});
+                     {"cannot be used together", "leave one of the two out"});
 }
 
 TEST(UsageError, NamesAnOptionWithoutItsValue) {

@@ -244,7 +244,7 @@ TEST_F(View, ReportsInputsThatCannotBeShown) {
     return view ? std::string("shown") : view.error().cause;
   };
   EXPECT_EQ(cause({.what = in_folder("gone"), .trial = {}, .avatars = {}}),
-            "does not exist");
+            "the file does not exist");
   EXPECT_EQ(cause({.what = out(), .trial = "run", .avatars = {}}),
             "has no trial \"run\"");
   fs::create_directories(in_folder("empty"));

@@ -183,8 +183,8 @@ TEST(OpenFrames, NamesAMissingFile) {
   const auto source = open_frames("/nowhere/cam9.mp4");
   ASSERT_FALSE(source);
   EXPECT_EQ(source.error().message(),
-            "/nowhere/cam9.mp4: the video or folder does not exist. Next: check the path "
-            "and its spelling.");
+            "/nowhere/cam9.mp4: the video or folder does not exist. Next: check the name "
+            "and the folder.");
 }
 
 TEST(NaturalOrder, CountsAsAPersonDoes) {

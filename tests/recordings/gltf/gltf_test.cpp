@@ -269,8 +269,12 @@ TEST(ReadCharacter, ReportsATruncatedFile) {
 
 TEST(ReadCharacter, ReportsAFileThatIsNotGltf) {
   const ScratchFolder folder;
+  EXPECT_EQ(refusal(folder, "not a body"), "this is neither a GLB file nor glTF text");
   EXPECT_EQ(refusal(folder, "HIERARCHY\nROOT hips\n"),
-            "this is neither a GLB file nor glTF text");
+            "this is a BVH motion, not a glTF or VRM file");
+  EXPECT_EQ(refusal(folder, "\x89PNG\r\n\x1a\n"),
+            "this is a picture, not a glTF or VRM file");
+  EXPECT_EQ(refusal(folder, ""), "the file is empty");
 }
 
 TEST(ReadCharacter, RefusesAnAccessorThatLeavesItsBuffer) {

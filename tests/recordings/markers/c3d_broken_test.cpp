@@ -60,9 +60,13 @@ TEST(C3dBroken, RejectsOtherFormatsWithTheByte) {
       refusal(bytes),
       "walk.c3d: byte 1: this is not a C3D file: it lacks the mark 80. Next: give a file "
       "in C3D format; the extension .c3d alone is not enough.");
-  EXPECT_EQ(refusal(""),
-            "walk.c3d: byte 0: the file ends before its header and parameters do. Next: "
+  EXPECT_EQ(refusal("\1\x50"),
+            "walk.c3d: byte 2: the file ends before its header and parameters do. Next: "
             "copy or export it again.");
+  EXPECT_EQ(refusal(""), "walk.c3d: the file is empty. Next: copy or export it again.");
+  EXPECT_EQ(refusal("PathFileType\t4\n"),
+            "walk.c3d: this is a TRC file of markers, not a C3D file of markers. Next: "
+            "give another file, or correct the extension of this one.");
 }
 
 TEST(C3dBroken, AFileWithoutParametersIsRefused) {

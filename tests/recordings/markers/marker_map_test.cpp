@@ -87,10 +87,8 @@ TEST(MarkerMap, RefusesAFileWithoutLabels) {
   EXPECT_EQ(mistake_of("[markers]\n"),
             "map.toml:1: no label in [markers]. Next: add a line for each marker: LASI = "
             "\"left_asis\".");
-  EXPECT_EQ(
-      mistake_of(""),
-      "map.toml:1: the key \"markers\" is missing. Next: add it; docs/formats/markers.md "
-      "describes it.");
+  EXPECT_EQ(mistake_of(""),
+            "map.toml: the file is empty. Next: copy or export it again.");
 }
 
 TEST(MarkerMap, RefusesALabelTwice) {

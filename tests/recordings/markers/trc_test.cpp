@@ -187,6 +187,10 @@ TEST(Trc, FaultsAreRefusedWithTheirLine) {
   EXPECT_EQ(trc_refusal("frame,time\n1,2\n"),
             "a.trc:1: this is not a TRC file: it does not begin with PathFileType. Next: "
             "give a TRC file as OpenSim, Cortex or Vicon write it.");
+  EXPECT_EQ(trc_refusal(""), "a.trc: the file is empty. Next: copy or export it again.");
+  EXPECT_EQ(trc_refusal(":ASF\n"),
+            "a.trc: this is an ASF skeleton, not a TRC file of markers. Next: give "
+            "another file, or correct the extension of this one.");
   EXPECT_EQ(trc_refusal(kKeys),
             "a.trc:2: the file ends in its header. Next: give a TRC file as OpenSim, "
             "Cortex or Vicon write it.");

@@ -307,6 +307,15 @@ TEST(ReadBvh, RefusesAFileOfAnotherKind) {
   EXPECT_NE(refusal("frame,time,joint\n")
                 .find("walk.bvh:1: expected \"HIERARCHY\", found \"frame,time,joint\""),
             std::string::npos);
+  EXPECT_EQ(refusal(std::string("glTF\2\0\0\0\xff\xfe", 10)),
+            "walk.bvh: this is a glTF or VRM file, not a BVH motion. Next: give another "
+            "file, or correct the extension of this one.");
+  EXPECT_EQ(refusal(""), "walk.bvh: the file is empty. Next: copy or export it again.");
+}
+
+TEST(ReadBvh, QuotesNoBytesThatATerminalMustNotReceive) {
+  EXPECT_NE(refusal("\x1b[31m\xff\n").find("expected \"HIERARCHY\", found \"?[31m?\""),
+            std::string::npos);
 }
 
 TEST(ReadBvh, NamesAFileThatIsNotThere) {

@@ -168,9 +168,12 @@ TEST(PlanFile, NamesTheMistakeAndItsLine) {
   EXPECT_EQ(mistake_of("format = 1\n"),
             "plan.toml:1: no [[camera]] in it. Next: add a [[camera]] for each that you "
             "plan.");
-  EXPECT_EQ(mistake_of(""),
+  EXPECT_EQ(mistake_of("[metadata]\nerror = 0.0\n"),
             "plan.toml:1: no camera in it. Next: run marey calibrate, or name another "
             "file.");
+  EXPECT_EQ(mistake_of("[board]\ntype = \"aprilgrid\"\n"),
+            "plan.toml: this is a session, not a plan. Next: give a plan as "
+            "docs/formats/plan.md describes it.");
 }
 
 }  // namespace

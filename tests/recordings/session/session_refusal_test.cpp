@@ -247,8 +247,8 @@ TEST(Session, RefusesAFormatItDoesNotKnow) {
                   .starts_with("session.toml:1: \"format\" is 2"));
 }
 
-TEST(Session, AnEmptyFileIsMissingItsFirstKey) {
-  EXPECT_TRUE(mistake("").starts_with("session.toml:1: the key \"format\" is missing."));
+TEST(Session, AnEmptyFileIsCalledEmpty) {
+  EXPECT_TRUE(mistake("").starts_with("session.toml: the file is empty."));
 }
 
 TEST(Session, NamesASessionThatDoesNotExist) {
