@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <utility>
 
-#include "app/live/live_guide.h"
 #include "app/live/live_page.h"
 #include "app/live/live_run.h"
 #include "app/live/live_takes.h"
+#include "app/live/live_wizard.h"
 #include "app/live_chain/live_chain.h"
 #include "app/live_chain/live_outputs.h"
 #include "app/motion/raw_body.h"
@@ -69,11 +69,11 @@ void print_statistics(const LiveStatistics& figures, Console& console) {
   }
 }
 
-LiveGuideOptions guiding(const LiveArguments& arguments) {
+LiveWizardOptions wizard_options(const LiveArguments& arguments) {
   return {arguments.calibrate,
           arguments.calibrate && arguments.no_page,
           !arguments.record.empty(),
-          arguments.guide};
+          arguments.wizard};
 }
 
 /// Placeholder body until the subject is measured.
@@ -95,16 +95,16 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
       live,
       arguments.record.empty() ? live.folder / "takes" / "live" : arguments.record,
       console);
-  std::optional<LiveGuide> guide;
+  std::optional<LiveWizard> wizard;
   if (!live.prior.tags.empty()) {
-    guide.emplace(live, guiding(arguments), console);
+    wizard.emplace(live, wizard_options(arguments), console);
   }
   std::unique_ptr<LivePage> page;
   if (!arguments.no_page) {
     auto opened = LivePage::open(arguments.page,
                                  live,
                                  chain ? chain->performer() : average_person(live),
-                                 guide ? &*guide : nullptr);
+                                 wizard ? &*wizard : nullptr);
     if (!opened) return console.fail(opened.error());
     page = *std::move(opened);
   }
@@ -128,7 +128,7 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
   auto figures = run_live(live,
                           chain,
                           *outputs,
-                          guide ? &*guide : nullptr,
+                          wizard ? &*wizard : nullptr,
                           &takes,
                           page.get(),
                           options,
@@ -139,7 +139,7 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
     return console.fail(figures.error());
   }
   Exit exit = Exit::kOk;
-  if (arguments.calibrate && !guide->has_measured()) {
+  if (arguments.calibrate && !wizard->has_measured()) {
     console.warn("no subject was measured");
     exit = Exit::kQualityGate;
   }
@@ -213,11 +213,11 @@ void add_live_command(CLI::App& app,
                  "Measure the subject first, or again: standing, then moving")
       ->excludes("--record");
   command
-      ->add_option("--stand-s", live.guide.stand_s, "Duration of the standing step [s]")
+      ->add_option("--stand-s", live.wizard.stand_s, "Duration of the standing step [s]")
       ->check(between(0.5, 60.0));
   command
       ->add_option("--move-s",
-                   live.guide.move_s,
+                   live.wizard.move_s,
                    "Duration of the moving step [s]; up to twice if a part is not seen")
       ->check(between(5.0, 600.0));
   command->add_option("--seconds", live.seconds, "Stop after this time [s]")

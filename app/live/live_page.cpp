@@ -60,11 +60,11 @@ std::string overload_of(const std::vector<LiveCameraFigures>& cameras,
 Result<std::unique_ptr<LivePage>> LivePage::open(const PageServerOptions& options,
                                                  const OpenedLive& live,
                                                  const Skeleton& performer,
-                                                 LiveGuide* guide) {
+                                                 LiveWizard* wizard) {
   auto page = start_page(options);
   if (!page) return page.error();
   auto out = std::unique_ptr<LivePage>(new LivePage(*std::move(page)));
-  out->guide_ = guide;
+  out->wizard_ = wizard;
   out->has_body_ = live.body.has_value();
   if (const Status ok = out->make_scene(live, performer); !ok) return ok.error();
   return out;
@@ -117,7 +117,7 @@ Status LivePage::make_scene(const OpenedLive& live, const Skeleton& performer) {
   make_balance();
   encoders_.resize(scene_.cameras.size());
   tags_seen_.assign(scene_.cameras.size(), 0);
-  if (guide_) scene_.wizard = guide_->ui_state();
+  if (wizard_) scene_.wizard = wizard_->ui_state();
   page_.server.publish_text(live::PageMessage::kScene, live::scene_json(scene_));
   return Done{};
 }
@@ -140,17 +140,17 @@ void LivePage::on_body(const Body& body, const Skeleton& performer) {
   figures_.front().joints = performer.joints.size();
   make_balance();
   has_body_ = true;
-  if (guide_) scene_.wizard = guide_->ui_state();
+  if (wizard_) scene_.wizard = wizard_->ui_state();
   ++scene_.revision;
   page_.server.publish_text(live::PageMessage::kScene, live::scene_json(scene_));
   show_wizard();
 }
 
 void LivePage::show_wizard() {
-  if (!guide_) return;
-  shown_step_ = guide_->ui_state().step;
+  if (!wizard_) return;
+  shown_step_ = wizard_->ui_state().step;
   page_.server.publish_text(live::PageMessage::kWizard,
-                            live::wizard_json(guide_->ui_state()));
+                            live::wizard_json(wizard_->ui_state()));
 }
 
 LivePage::Answer LivePage::answer(const std::string& text,
@@ -177,8 +177,8 @@ LivePage::Answer LivePage::answer(const std::string& text,
     return {};
   }
   if (const auto* wizard = std::get_if<live::WizardRequest>(&*request)) {
-    if (!guide_) return {"the session does not name a subject to be measured", "wizard"};
-    const auto refusal = guide_->act(wizard->action);
+    if (!wizard_) return {"the session does not name a subject to be measured", "wizard"};
+    const auto refusal = wizard_->act(wizard->action);
     show_wizard();
     return {refusal.value_or(""), "wizard"};
   }
@@ -237,7 +237,7 @@ void LivePage::on_frame(const LiveInstant& instant, const LiveResult& result) {
   for (const CameraTags& view : instant.views) {
     tags_seen_[index(view.camera)] = static_cast<int>(view.tags.size());
   }
-  if (guide_ && guide_->ui_state().step != shown_step_) show_wizard();
+  if (wizard_ && wizard_->ui_state().step != shown_step_) show_wizard();
   update_balance(instant, result);
   uncertainty_.assign(result.uncertainty.begin(), result.uncertainty.end());
   if (page_.server.client_count() == 0) {

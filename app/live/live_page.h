@@ -27,14 +27,14 @@ namespace marey::app {
 /// never delays the run.
 class LivePage final : public LiveWatcher {
  public:
-  /// Starts the server with the scene of this run. `guide` performs calibrations; it may
+  /// Starts the server with the scene of this run. `wizard` performs calibrations; it may
   /// be null and must outlive the page. Errors: those of start_page(); a skin file cannot
   /// be read.
   [[nodiscard]] static Result<std::unique_ptr<LivePage>> open(
       const PageServerOptions& options,
       const OpenedLive& live,
       const Skeleton& performer,
-      LiveGuide* guide);
+      LiveWizard* wizard);
 
   [[nodiscard]] const PageServer& server() const { return page_; }
   [[nodiscard]] bool wants_thumbnails() const override { return thumbnails_.any(); }
@@ -74,7 +74,7 @@ class LivePage final : public LiveWatcher {
   void note(reconstruct::TrackState state, const LiveStatistics& figures);
 
   PageServer page_;
-  LiveGuide* guide_ = nullptr;
+  LiveWizard* wizard_ = nullptr;
   live::WizardStep shown_step_ = live::WizardStep::kIdle;
   bool has_body_ = false;
   std::optional<bool> record_request_;  ///< true: start; false: stop.

@@ -165,14 +165,14 @@ class Loop {
   Loop(OpenedLive& live,
        std::optional<LiveChain>& chain,
        LiveOutputs& outputs,
-       LiveGuide* guide,
+       LiveWizard* wizard,
        LiveTakes* takes,
        LiveWatcher* watcher,
        Console& console)
       : live_(live),
         chain_(chain),
         outputs_(outputs),
-        guide_(guide),
+        wizard_(wizard),
         takes_(takes),
         watcher_(watcher),
         console_(console),
@@ -203,7 +203,7 @@ class Loop {
       }
     }
     counting_.figures().seconds = watch.seconds();
-    if (guide_) guide_->end();
+    if (wizard_) wizard_->end();
     report_status(groups, cameras, true);
   }
 
@@ -233,7 +233,7 @@ class Loop {
     if (watcher_) show(group, result);
     // This may replace the chain.
     if (takes_) record(requests, result);
-    if (guide_) guide(instant_);
+    if (wizard_) run_wizard(instant_);
   }
 
   void detect_exchanged_cameras(const LiveResult& result) {
@@ -251,7 +251,7 @@ class Loop {
       if (const auto request = watcher_->record_request()) takes_->want(*request);
     }
     takes_->add(instant_, requests, result, *chain_);
-    if (guide_) guide_->set_recording(takes_->is_wanted());
+    if (wizard_) wizard_->set_recording(takes_->is_wanted());
   }
 
   /// Returns the result reported while no body is tracked.
@@ -261,10 +261,10 @@ class Loop {
     return untracked_;
   }
 
-  /// Runs the guide, after all packets of the instant were sent.
-  void guide(const LiveInstant& instant) {
-    guide_->process(instant);
-    auto found = guide_->take_body();
+  /// Runs the wizard, after all packets of the instant were sent.
+  void run_wizard(const LiveInstant& instant) {
+    wizard_->process(instant);
+    auto found = wizard_->take_body();
     if (!found) return;
     chain_.emplace(std::move(found->chain));
     is_chain_new_ = true;
@@ -321,7 +321,7 @@ class Loop {
   OpenedLive& live_;
   std::optional<LiveChain>& chain_;
   LiveOutputs& outputs_;
-  LiveGuide* guide_;
+  LiveWizard* wizard_;
   LiveTakes* takes_;
   LiveWatcher* watcher_;
   Console& console_;
@@ -354,7 +354,7 @@ capture::GroupFramesOptions grouping(const OpenedLive& live,
 Result<LiveStatistics> run_live(OpenedLive& live,
                                 std::optional<LiveChain>& chain,
                                 LiveOutputs& outputs,
-                                LiveGuide* guide,
+                                LiveWizard* wizard,
                                 LiveTakes* takes,
                                 LiveWatcher* watcher,
                                 const LiveRunOptions& options,
@@ -365,7 +365,7 @@ Result<LiveStatistics> run_live(OpenedLive& live,
   std::vector<capture::FrameFeed*> feeds;
   for (const auto& feed : live.feeds) feeds.push_back(feed.get());
   const std::vector<capture::ClockModel> clocks(feeds.size());
-  Loop loop(live, chain, outputs, guide, takes, watcher, console);
+  Loop loop(live, chain, outputs, wizard, takes, watcher, console);
   // Destroyed first, because its threads use the cameras.
   Groups groups(feeds,
                 clocks,

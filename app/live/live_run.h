@@ -6,9 +6,9 @@
 #include <functional>
 #include <optional>
 
-#include "app/live/live_guide.h"
 #include "app/live/live_session.h"
 #include "app/live/live_takes.h"
+#include "app/live/live_wizard.h"
 #include "app/live_chain/live_chain.h"
 #include "app/live_chain/live_outputs.h"
 #include "app/live_chain/live_statistics.h"
@@ -57,13 +57,12 @@ struct LiveRunOptions {
 /// Under overload the newest data has priority: a picture older than
 /// LiveCameraOptions::stale_after_s is skipped, and so are waiting instants once a newer
 /// one is ready. All skipped data is counted. Without a chain nothing is tracked or sent
-/// until the guide provides a body. `guide`, `takes` and `watcher` may be null; `guide`
-/// and `takes` must belong to `live`.
-/// Errors: those of the detectors.
+/// until the wizard provides a body. `wizard`, `takes` and `watcher` may be null;
+/// `wizard` and `takes` must belong to `live`. Errors: those of the detectors.
 [[nodiscard]] Result<LiveStatistics> run_live(OpenedLive& live,
                                               std::optional<LiveChain>& chain,
                                               LiveOutputs& outputs,
-                                              LiveGuide* guide,
+                                              LiveWizard* wizard,
                                               LiveTakes* takes,
                                               LiveWatcher* watcher,
                                               const LiveRunOptions& options,

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "app/live_chain/guide_subject.h"
 #include "app/live_chain/live_settings.h"
 #include "app/live_chain/live_streams.h"
+#include "app/live_chain/subject_wizard.h"
 #include "app/motion/retarget_files.h"
 #include "app/shell/console.h"
 #include "app/view/page_server.h"
@@ -48,7 +48,7 @@ struct LiveArguments {
   PageServerOptions page;
   bool json = false;
   bool calibrate = false;  ///< Measures the subject first, or again.
-  GuideOptions guide;
+  WizardOptions wizard;
 };
 
 /// A live run before its first frame.

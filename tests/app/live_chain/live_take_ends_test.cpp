@@ -12,8 +12,8 @@
 
 #include <gtest/gtest.h>
 
-#include "app/live/live_guide.h"
 #include "app/live/live_takes.h"
+#include "app/live/live_wizard.h"
 #include "app/live_chain/open_live_take.h"
 #include "recordings/session/subject_file.h"
 #include "tests/support/bodies/synthetic_person.h"
@@ -221,11 +221,11 @@ TEST_F(TakesOfARun, KeepAvatarsWhoseNamesAreAlike) {
 TEST_F(TakesOfARun, MeasureNoSubjectAfterTheEnd) {
   live_.prior = {"first", 1.75, std::nullopt, testing::tags_of(*live_.body)};
   live_.subject_file = folder_ / "subject.toml";
-  LiveGuide guide(live_, {.begin = true, .by_itself = true}, console_);
-  for (int i = 0; i < 5; ++i) guide.process(instant());
-  guide.end();
-  EXPECT_EQ(guide.ui_state().step, live::WizardStep::kFailed);
-  EXPECT_FALSE(guide.has_measured());
+  LiveWizard wizard(live_, {.begin = true, .by_itself = true}, console_);
+  for (int i = 0; i < 5; ++i) wizard.process(instant());
+  wizard.end();
+  EXPECT_EQ(wizard.ui_state().step, live::WizardStep::kFailed);
+  EXPECT_FALSE(wizard.has_measured());
 }
 
 }  // namespace

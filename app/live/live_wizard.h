@@ -8,21 +8,21 @@
 #include <thread>
 
 #include "app/live/live_session.h"
-#include "app/live_chain/guide_subject.h"
 #include "app/live_chain/live_chain.h"
+#include "app/live_chain/subject_wizard.h"
 #include "app/shell/console.h"
 
 namespace marey::app {
 
-struct LiveGuideOptions {
+struct LiveWizardOptions {
   bool begin = false;         ///< Starts at once, without a request.
   bool by_itself = false;     ///< Accepts a good result; restarts after a poor one.
   bool is_recording = false;  ///< See set_recording().
-  GuideOptions steps{};
+  WizardOptions steps{};
 };
 
 /// A measured body and the chain that tracks it.
-struct GuidedBody {
+struct MeasuredBody {
   Body body;
   LiveChain chain;
 };
@@ -30,10 +30,10 @@ struct GuidedBody {
 /// Guides a subject through calibration during a live run. Solves on its own thread,
 /// prints the steps on the console and writes the accepted body to subject.toml. The
 /// previous file is kept as subject.toml.before. Called from one thread.
-class LiveGuide {
+class LiveWizard {
  public:
   /// `live` and `console` must outlive the object. Precondition: live.prior has tags.
-  LiveGuide(const OpenedLive& live, const LiveGuideOptions& options, Console& console);
+  LiveWizard(const OpenedLive& live, const LiveWizardOptions& options, Console& console);
 
   /// Performs an action of the page. Returns the reason if it is rejected, else nullopt.
   [[nodiscard]] std::optional<std::string> act(live::WizardAction action);
@@ -44,12 +44,12 @@ class LiveGuide {
   /// body is accepted.
   void process(const LiveInstant& instant);
   /// Ends the calibration; no instant may follow. Waits up to a minute for a running
-  /// solve. With LiveGuideOptions::by_itself it accepts a good result.
+  /// solve. With LiveWizardOptions::by_itself it accepts a good result.
   void end();
   /// Returns the body accepted since the last call, if any.
-  [[nodiscard]] std::optional<GuidedBody> take_body();
+  [[nodiscard]] std::optional<MeasuredBody> take_body();
 
-  [[nodiscard]] const live::PageWizard& ui_state() const { return guide_.ui_state(); }
+  [[nodiscard]] const live::PageWizard& ui_state() const { return wizard_.ui_state(); }
   /// Returns true if a body was accepted and written.
   [[nodiscard]] bool has_measured() const { return has_measured_; }
 
@@ -60,18 +60,18 @@ class LiveGuide {
   };
 
   void go_on();
-  void solve(GuideMaterial material);
-  [[nodiscard]] Result<Solved> solved(const GuideMaterial& material) const;
+  void solve(WizardMaterial material);
+  [[nodiscard]] Result<Solved> solved(const WizardMaterial& material) const;
   void take_result();
   [[nodiscard]] std::optional<std::string> accept();
   void report_step();
 
   const OpenedLive& live_;
-  LiveGuideOptions options_;
+  LiveWizardOptions options_;
   Console& console_;
-  SubjectGuide guide_;
+  SubjectWizard wizard_;
   std::optional<Solved> waiting_;  ///< Result to be accepted.
-  std::optional<GuidedBody> accepted_;
+  std::optional<MeasuredBody> accepted_;
   bool has_measured_ = false;
   live::WizardStep shown_step_ = live::WizardStep::kIdle;
   std::string shown_text_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live/live_guide.h"
+#include "app/live/live_wizard.h"
 
 #include <filesystem>
 #include <system_error>
@@ -19,8 +19,8 @@ using live::WizardStep;
 /// Minimum interval between console messages of the same step.
 constexpr double kTellEvery_s = 3.0;
 
-GuideSetup setup_of(const OpenedLive& live) {
-  GuideSetup setup;
+WizardSetup setup_of(const OpenedLive& live) {
+  WizardSetup setup;
   setup.cameras = live.calibration.cameras;
   for (const CameraQuality& camera : live.calibration.quality) {
     setup.rms_px.push_back(camera.rms_px);
@@ -50,17 +50,17 @@ Status write_next_to_old(const std::filesystem::path& path, const Body& body) {
 
 }  // namespace
 
-LiveGuide::LiveGuide(const OpenedLive& live,
-                     const LiveGuideOptions& options,
-                     Console& console)
+LiveWizard::LiveWizard(const OpenedLive& live,
+                       const LiveWizardOptions& options,
+                       Console& console)
     : live_(live),
       options_(options),
       console_(console),
-      guide_(setup_of(live), options.steps) {
+      wizard_(setup_of(live), options.steps) {
   if (options_.begin && !act(WizardAction::kStart)) report_step();
 }
 
-std::optional<std::string> LiveGuide::act(WizardAction action) {
+std::optional<std::string> LiveWizard::act(WizardAction action) {
   if (action == WizardAction::kStart && options_.is_recording) {
     return "a take is being recorded, and a take has one body: end the take first";
   }
@@ -68,7 +68,7 @@ std::optional<std::string> LiveGuide::act(WizardAction action) {
     return "the cancelled measurement is still being solved: try again in some seconds";
   }
   if (action == WizardAction::kAccept) return accept();
-  const auto refusal = guide_.act(action);
+  const auto refusal = wizard_.act(action);
   if (!refusal) {
     waiting_.reset();
     go_on();
@@ -76,18 +76,18 @@ std::optional<std::string> LiveGuide::act(WizardAction action) {
   return refusal;
 }
 
-void LiveGuide::process(const LiveInstant& instant) {
+void LiveWizard::process(const LiveInstant& instant) {
   now_ = instant.time;
-  guide_.process(instant);
+  wizard_.process(instant);
   go_on();
 }
 
-void LiveGuide::end() {
+void LiveWizard::end() {
   options_.begin = false;  // No restart.
-  guide_.end();
+  wizard_.end();
   go_on();
   if (!solver_.joinable()) return;
-  const bool is_wanted = guide_.step() == WizardStep::kSolve;
+  const bool is_wanted = wizard_.step() == WizardStep::kSolve;
   if (!is_solved_) {
     console_.say(is_wanted
                      ? "waiting for the body to be measured"
@@ -98,20 +98,21 @@ void LiveGuide::end() {
 }
 
 /// Continues with the step that the current state requires.
-void LiveGuide::go_on() {
+void LiveWizard::go_on() {
   take_result();
-  if (auto material = guide_.take_material()) solve(*std::move(material));
+  if (auto material = wizard_.take_material()) solve(*std::move(material));
   report_step();
   if (!options_.by_itself) return;
-  if (guide_.is_good()) {
+  if (wizard_.is_good()) {
     if (const auto refusal = accept()) console_.warn(*refusal);
   }
   const bool is_unaccepted =
-      guide_.step() == WizardStep::kFailed || guide_.step() == WizardStep::kDone;
-  if (is_unaccepted && options_.begin && !guide_.act(WizardAction::kStart)) report_step();
+      wizard_.step() == WizardStep::kFailed || wizard_.step() == WizardStep::kDone;
+  if (is_unaccepted && options_.begin && !wizard_.act(WizardAction::kStart))
+    report_step();
 }
 
-void LiveGuide::solve(GuideMaterial material) {
+void LiveWizard::solve(WizardMaterial material) {
   MAREY_ASSERT(!solver_.joinable());
   is_solved_ = false;
   solver_ = std::jthread([this, material = std::move(material)] {
@@ -122,7 +123,7 @@ void LiveGuide::solve(GuideMaterial material) {
 }
 
 /// Solves on the solver's thread; reads only constant members.
-Result<LiveGuide::Solved> LiveGuide::solved(const GuideMaterial& material) const {
+Result<LiveWizard::Solved> LiveWizard::solved(const WizardMaterial& material) const {
   const auto& cameras = live_.calibration.cameras;
   const auto& tags = live_.prior.tags;
   for (const auto* seen : {&material.standing, &material.moving}) {
@@ -137,26 +138,26 @@ Result<LiveGuide::Solved> LiveGuide::solved(const GuideMaterial& material) const
   return Solved{*std::move(fit), *std::move(chain)};
 }
 
-void LiveGuide::take_result() {
+void LiveWizard::take_result() {
   if (!solver_.joinable() || !is_solved_) return;
   solver_.join();
   auto result = *std::exchange(result_, std::nullopt);
-  if (guide_.step() != WizardStep::kSolve) return;  // It was cancelled.
-  if (!result) return guide_.finish(result.error());
-  guide_.finish(result->fit);
+  if (wizard_.step() != WizardStep::kSolve) return;  // It was cancelled.
+  if (!result) return wizard_.finish(result.error());
+  wizard_.finish(result->fit);
   waiting_.emplace(*std::move(result));
 }
 
-std::optional<std::string> LiveGuide::accept() {
-  if (const auto refusal = guide_.act(WizardAction::kAccept)) return refusal;
+std::optional<std::string> LiveWizard::accept() {
+  if (const auto refusal = wizard_.act(WizardAction::kAccept)) return refusal;
   MAREY_ASSERT(waiting_);
   const Status written = write_next_to_old(live_.subject_file, waiting_->fit.body);
   if (!written) {
-    guide_.refuse_acceptance(written.error().message());
+    wizard_.refuse_acceptance(written.error().message());
     return written.error().message();
   }
   accepted_.emplace(
-      GuidedBody{std::move(waiting_->fit.body), std::move(waiting_->chain)});
+      MeasuredBody{std::move(waiting_->fit.body), std::move(waiting_->chain)});
   waiting_.reset();
   has_measured_ = true;
   options_.begin = false;
@@ -165,13 +166,13 @@ std::optional<std::string> LiveGuide::accept() {
   return std::nullopt;
 }
 
-std::optional<GuidedBody> LiveGuide::take_body() {
+std::optional<MeasuredBody> LiveWizard::take_body() {
   return std::exchange(accepted_, std::nullopt);
 }
 
 /// Prints a new step at once, and a new text of the same step after kTellEvery_s.
-void LiveGuide::report_step() {
-  const live::PageWizard& now = guide_.ui_state();
+void LiveWizard::report_step() {
+  const live::PageWizard& now = wizard_.ui_state();
   const bool is_new_step = now.step != shown_step_;
   const bool is_due = !shown_at_ || (now_ && seconds(*now_ - *shown_at_) >= kTellEvery_s);
   if (!is_new_step && (now.text == shown_text_ || !is_due)) return;

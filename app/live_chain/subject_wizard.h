@@ -19,21 +19,21 @@
 namespace marey::app {
 
 /// Input of a calibration of a subject.
-struct GuideSetup {
+struct WizardSetup {
   std::vector<Camera> cameras;
   std::vector<double> rms_px;  ///< By camera: calibration residual.
   reconstruct::SubjectPrior prior;
   FrameRate rate;
 };
 
-struct GuideOptions {
+struct WizardOptions {
   double stand_s = 2.5;
   /// Duration of the moving step; up to twice as long if a part was not seen well.
   double move_s = 20.0;
 };
 
 /// Detections of the two steps, in the form of fit_subject(): without tag shrinkage.
-struct GuideMaterial {
+struct WizardMaterial {
   std::vector<CameraDetections> standing;
   std::vector<CameraDetections> moving;
 };
@@ -51,10 +51,10 @@ struct GuideMaterial {
 /// - Move: time counts while the hips are visible. The step waits until every part of the
 ///   body with tags was seen twice at once, by two cameras or with two tags. Continues to
 ///   Solve automatically.
-class SubjectGuide {
+class SubjectWizard {
  public:
   /// Preconditions: as many cameras as rms_px, at least one tag.
-  explicit SubjectGuide(GuideSetup setup, const GuideOptions& options = {});
+  explicit SubjectWizard(WizardSetup setup, const WizardOptions& options = {});
 
   /// Performs an action of a page or program. Returns the reason if it is rejected, else
   /// nullopt.
@@ -65,7 +65,7 @@ class SubjectGuide {
   void end();
 
   /// Returns the data to be solved, once, after the step has become kSolve.
-  [[nodiscard]] std::optional<GuideMaterial> take_material();
+  [[nodiscard]] std::optional<WizardMaterial> take_material();
   /// Sets the result of the solve. Ignored unless the step is kSolve.
   void finish(const Result<reconstruct::SubjectFit>& fit);
   /// Returns to kDone with the reason `why` if the accepted body could not be stored.
@@ -93,17 +93,17 @@ class SubjectGuide {
   [[nodiscard]] std::string missing_parts(const std::set<HumanBone>& there) const;
   [[nodiscard]] std::vector<CameraDetections> nothing_seen() const;
 
-  GuideSetup setup_;
-  GuideOptions options_;
+  WizardSetup setup_;
+  WizardOptions options_;
   std::set<HumanBone> parts_;  ///< Parts with tags.
   live::PageWizard ui_state_;
-  GuideMaterial material_;
+  WizardMaterial material_;
   bool has_material_ = false;
   double counted_s_ = 0.0;  ///< Counted time of this step.
   std::optional<Timestamp> last_;
   bool was_restless_ = false;
   std::vector<std::vector<int>> cells_;  ///< By camera and cell: tags seen there.
-  std::vector<int> now_;    ///< By tag: cameras that see it in this instant.
+  std::vector<int> now_;                 ///< By tag: cameras that see it in this instant.
   std::vector<int> twice_;  ///< By tag: instants in which its part was seen twice.
   /// By camera and tag: its centre when the subject began to stand still. [px]
   std::vector<std::vector<std::optional<glm::dvec2>>> stood_px_;

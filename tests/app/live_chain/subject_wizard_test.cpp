@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live_chain/guide_subject.h"
+#include "app/live_chain/subject_wizard.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,10 +25,10 @@ std::vector<Camera> shrinking_cameras() {
   return cameras;
 }
 
-/// A person before a ring of cameras, whom a guide looks at.
-class Guiding : public ::testing::Test {
+/// A person before a ring of cameras, who is measured by the wizard.
+class Wizard : public ::testing::Test {
  protected:
-  GuideSetup setup() const {
+  WizardSetup setup() const {
     reconstruct::SubjectPrior prior{"someone", truth_.stature_m, {}, {}};
     for (const PlacedTag& tag : truth_.tags) prior.tags.push_back(tag.tag);
     return {cameras_, std::vector<double>(cameras_.size(), 0.4), prior, {kRate_hz}};
@@ -51,12 +51,13 @@ class Guiding : public ::testing::Test {
         instant.views.push_back(
             {CameraId{static_cast<int>(c)}, instant.time, seen[c].frames[f].tags});
       }
-      guide_.process(instant);
+      wizard_.process(instant);
     }
   }
 
   void show_nobody(double lasts_s) {
-    for (int f = 0; f < static_cast<int>(lasts_s * kRate_hz); ++f) guide_.process(next());
+    for (int f = 0; f < static_cast<int>(lasts_s * kRate_hz); ++f)
+      wizard_.process(next());
   }
 
   LiveInstant next() {
@@ -69,14 +70,14 @@ class Guiding : public ::testing::Test {
 
   /// Up to the step of moving.
   void stand() {
-    ASSERT_FALSE(guide_.act(WizardAction::kStart));
+    ASSERT_FALSE(wizard_.act(WizardAction::kStart));
     show(filmed(marey::testing::standing(truth_), 3.0));
-    ASSERT_EQ(guide_.step(), WizardStep::kMove);
+    ASSERT_EQ(wizard_.step(), WizardStep::kMove);
   }
 
   Body truth_ = marey::testing::tagged_person();
   std::vector<Camera> cameras_ = shrinking_cameras();
-  SubjectGuide guide_{setup(), {2.5, 6.0}};
+  SubjectWizard wizard_{setup(), {2.5, 6.0}};
   std::int64_t number_ = 0;
 };
 
@@ -102,44 +103,44 @@ void expect_shown(const std::vector<Camera>& cameras,
 }
 
 // That a subject is found from such detections is claimed of fit_subject() itself.
-TEST_F(Guiding, PassesTheShownDetectionsToTheSolver) {
-  ASSERT_FALSE(guide_.act(WizardAction::kStart));
+TEST_F(Wizard, PassesTheShownDetectionsToTheSolver) {
+  ASSERT_FALSE(wizard_.act(WizardAction::kStart));
   const auto stood = filmed(marey::testing::standing(truth_), 77.0 / kRate_hz);
   show(stood);
-  ASSERT_EQ(guide_.step(), WizardStep::kMove);
+  ASSERT_EQ(wizard_.step(), WizardStep::kMove);
   const auto moved = filmed(marey::testing::range_of_motion(truth_), 7.0);
   show(moved);
-  ASSERT_EQ(guide_.step(), WizardStep::kSolve) << guide_.ui_state().text;
-  const auto material = guide_.take_material();
+  ASSERT_EQ(wizard_.step(), WizardStep::kSolve) << wizard_.ui_state().text;
+  const auto material = wizard_.take_material();
   ASSERT_TRUE(material);
-  EXPECT_FALSE(guide_.take_material());
+  EXPECT_FALSE(wizard_.take_material());
   expect_shown(cameras_, material->standing, stood);
   expect_shown(cameras_, material->moving, moved);
-  for (const WizardCamera& camera : guide_.ui_state().cameras) {
+  for (const WizardCamera& camera : wizard_.ui_state().cameras) {
     EXPECT_GT(camera.coverage(), 0.05) << camera.name;
     EXPECT_EQ(camera.rms_px, 0.4);
   }
 }
 
-TEST_F(Guiding, AcceptsAGoodFitAndFlagsAPoorOne) {
+TEST_F(Wizard, AcceptsAGoodFitAndFlagsAPoorOne) {
   stand();
   show(filmed(marey::testing::range_of_motion(truth_), 7.0));
   reconstruct::SubjectFit fit{truth_, 0.5, 1.02, {}, {}, {}};
   fit.body.joint_centre_sigma_m.fill(0.002);
-  SubjectGuide other = guide_;
-  guide_.finish(fit);
-  ASSERT_EQ(guide_.step(), WizardStep::kDone);
-  EXPECT_TRUE(guide_.is_good());
+  SubjectWizard other = wizard_;
+  wizard_.finish(fit);
+  ASSERT_EQ(wizard_.step(), WizardStep::kDone);
+  EXPECT_TRUE(wizard_.is_good());
   // Two bones of four limbs, residual, size, tags.
-  EXPECT_EQ(guide_.ui_state().quality.size(), 11U);
-  EXPECT_FALSE(guide_.act(WizardAction::kAccept));
-  EXPECT_EQ(guide_.step(), WizardStep::kIdle);
-  guide_.refuse_acceptance("the disk is full.");
-  EXPECT_EQ(guide_.step(), WizardStep::kDone);
-  EXPECT_EQ(guide_.ui_state().error, "the disk is full.");
+  EXPECT_EQ(wizard_.ui_state().quality.size(), 11U);
+  EXPECT_FALSE(wizard_.act(WizardAction::kAccept));
+  EXPECT_EQ(wizard_.step(), WizardStep::kIdle);
+  wizard_.refuse_acceptance("the disk is full.");
+  EXPECT_EQ(wizard_.step(), WizardStep::kDone);
+  EXPECT_EQ(wizard_.ui_state().error, "the disk is full.");
 
   fit.body.joint_centre_sigma_m[index(HumanBone::kLeftHand)] = 0.02;
-  SubjectGuide third = other;
+  SubjectWizard third = other;
   other.finish(fit);
   EXPECT_EQ(other.step(), WizardStep::kDone);
   EXPECT_FALSE(other.is_good());
@@ -156,32 +157,32 @@ TEST_F(Guiding, AcceptsAGoodFitAndFlagsAPoorOne) {
   EXPECT_FALSE(third.is_good()) << "legs of different lengths";
 }
 
-TEST_F(Guiding, RejectsStandingWhileTheSubjectMoves) {
-  ASSERT_FALSE(guide_.act(WizardAction::kStart));
+TEST_F(Wizard, RejectsStandingWhileTheSubjectMoves) {
+  ASSERT_FALSE(wizard_.act(WizardAction::kStart));
   show(filmed(marey::testing::walking(truth_), 4.0));
-  EXPECT_EQ(guide_.step(), WizardStep::kStand);
-  EXPECT_LT(guide_.ui_state().progress, 0.5);
-  EXPECT_NE(guide_.ui_state().text.find("you moved"), std::string::npos);
+  EXPECT_EQ(wizard_.step(), WizardStep::kStand);
+  EXPECT_LT(wizard_.ui_state().progress, 0.5);
+  EXPECT_NE(wizard_.ui_state().text.find("you moved"), std::string::npos);
   show(filmed(marey::testing::standing(truth_), 3.0));
-  EXPECT_EQ(guide_.step(), WizardStep::kMove);
+  EXPECT_EQ(wizard_.step(), WizardStep::kMove);
 }
 
-TEST_F(Guiding, CountsNoProgressWhileTheSubjectIsUnseen) {
-  ASSERT_FALSE(guide_.act(WizardAction::kStart));
+TEST_F(Wizard, CountsNoProgressWhileTheSubjectIsUnseen) {
+  ASSERT_FALSE(wizard_.act(WizardAction::kStart));
   show_nobody(10.0);
-  EXPECT_EQ(guide_.step(), WizardStep::kStand);
-  EXPECT_EQ(guide_.ui_state().progress, 0.0);
-  EXPECT_NE(guide_.ui_state().text.find("Missing: hips"), std::string::npos);
-  EXPECT_TRUE(guide_.act(WizardAction::kNext));
+  EXPECT_EQ(wizard_.step(), WizardStep::kStand);
+  EXPECT_EQ(wizard_.ui_state().progress, 0.0);
+  EXPECT_NE(wizard_.ui_state().text.find("Missing: hips"), std::string::npos);
+  EXPECT_TRUE(wizard_.act(WizardAction::kNext));
   show(filmed(marey::testing::standing(truth_), 3.0));
-  ASSERT_EQ(guide_.step(), WizardStep::kMove);
-  const double progress = guide_.ui_state().progress;
+  ASSERT_EQ(wizard_.step(), WizardStep::kMove);
+  const double progress = wizard_.ui_state().progress;
   show_nobody(30.0);
-  EXPECT_EQ(guide_.step(), WizardStep::kMove);
-  EXPECT_EQ(guide_.ui_state().progress, progress);
+  EXPECT_EQ(wizard_.step(), WizardStep::kMove);
+  EXPECT_EQ(wizard_.ui_state().progress, progress);
 }
 
-TEST_F(Guiding, APartThatIsNeverSeenIsWaitedForButNotForEver) {
+TEST_F(Wizard, APartThatIsNeverSeenIsWaitedForButNotForEver) {
   const auto without = [](std::vector<CameraDetections> seen, const Body& body) {
     for (CameraDetections& camera : seen) {
       for (FrameDetections& frame : camera.frames) {
@@ -194,61 +195,61 @@ TEST_F(Guiding, APartThatIsNeverSeenIsWaitedForButNotForEver) {
     }
     return seen;
   };
-  ASSERT_FALSE(guide_.act(WizardAction::kStart));
+  ASSERT_FALSE(wizard_.act(WizardAction::kStart));
   show(without(filmed(marey::testing::standing(truth_), 3.0), truth_));
   show(without(filmed(marey::testing::range_of_motion(truth_), 9.0), truth_));
-  EXPECT_EQ(guide_.step(), WizardStep::kMove);
-  EXPECT_LT(guide_.ui_state().progress, 1.0);
-  EXPECT_NE(guide_.ui_state().text.find("Missing: left foot."), std::string::npos)
-      << guide_.ui_state().text;
+  EXPECT_EQ(wizard_.step(), WizardStep::kMove);
+  EXPECT_LT(wizard_.ui_state().progress, 1.0);
+  EXPECT_NE(wizard_.ui_state().text.find("Missing: left foot."), std::string::npos)
+      << wizard_.ui_state().text;
   show(without(filmed(marey::testing::range_of_motion(truth_), 4.0), truth_));
-  EXPECT_EQ(guide_.step(), WizardStep::kSolve);
+  EXPECT_EQ(wizard_.step(), WizardStep::kSolve);
 }
 
-TEST_F(Guiding, AllowsNextOnceThereIsEnoughMaterial) {
+TEST_F(Wizard, AllowsNextOnceThereIsEnoughMaterial) {
   stand();
   show(filmed(marey::testing::range_of_motion(truth_), 3.0));
-  EXPECT_TRUE(guide_.act(WizardAction::kNext));
+  EXPECT_TRUE(wizard_.act(WizardAction::kNext));
   show(filmed(marey::testing::range_of_motion(truth_), 2.5));
-  EXPECT_FALSE(guide_.act(WizardAction::kNext));
-  EXPECT_EQ(guide_.step(), WizardStep::kSolve);
+  EXPECT_FALSE(wizard_.act(WizardAction::kNext));
+  EXPECT_EQ(wizard_.step(), WizardStep::kSolve);
 }
 
-TEST_F(Guiding, FailsWithAdviceWhenEndedEarly) {
-  guide_.end();
-  EXPECT_EQ(guide_.step(), WizardStep::kIdle);
-  ASSERT_FALSE(guide_.act(WizardAction::kStart));
-  guide_.end();
-  EXPECT_EQ(guide_.step(), WizardStep::kFailed);
-  EXPECT_NE(guide_.ui_state().error.find("Next: "), std::string::npos);
+TEST_F(Wizard, FailsWithAdviceWhenEndedEarly) {
+  wizard_.end();
+  EXPECT_EQ(wizard_.step(), WizardStep::kIdle);
+  ASSERT_FALSE(wizard_.act(WizardAction::kStart));
+  wizard_.end();
+  EXPECT_EQ(wizard_.step(), WizardStep::kFailed);
+  EXPECT_NE(wizard_.ui_state().error.find("Next: "), std::string::npos);
   stand();
-  guide_.end();
-  EXPECT_EQ(guide_.step(), WizardStep::kFailed);
-  EXPECT_FALSE(guide_.take_material());
+  wizard_.end();
+  EXPECT_EQ(wizard_.step(), WizardStep::kFailed);
+  EXPECT_FALSE(wizard_.take_material());
 }
 
-TEST_F(Guiding, ReportsAFailedFitAndRestarts) {
-  stand();
-  show(filmed(marey::testing::range_of_motion(truth_), 7.0));
-  ASSERT_TRUE(guide_.take_material());
-  guide_.finish(bad_input("", "the limbs are absurd", "measure the tags"));
-  EXPECT_EQ(guide_.step(), WizardStep::kFailed);
-  EXPECT_NE(guide_.ui_state().error.find("measure the tags"), std::string::npos);
-  EXPECT_TRUE(guide_.act(WizardAction::kAccept));
-  EXPECT_FALSE(guide_.act(WizardAction::kStart));
-  EXPECT_EQ(guide_.step(), WizardStep::kStand);
-  EXPECT_TRUE(guide_.ui_state().error.empty());
-}
-
-TEST_F(Guiding, DiscardsTheMaterialOnCancel) {
+TEST_F(Wizard, ReportsAFailedFitAndRestarts) {
   stand();
   show(filmed(marey::testing::range_of_motion(truth_), 7.0));
-  EXPECT_TRUE(guide_.act(WizardAction::kStart));
-  EXPECT_FALSE(guide_.act(WizardAction::kCancel));
-  EXPECT_EQ(guide_.step(), WizardStep::kIdle);
-  EXPECT_FALSE(guide_.take_material());
-  guide_.finish(bad_input("", "too late", ""));
-  EXPECT_EQ(guide_.step(), WizardStep::kIdle);
+  ASSERT_TRUE(wizard_.take_material());
+  wizard_.finish(bad_input("", "the limbs are absurd", "measure the tags"));
+  EXPECT_EQ(wizard_.step(), WizardStep::kFailed);
+  EXPECT_NE(wizard_.ui_state().error.find("measure the tags"), std::string::npos);
+  EXPECT_TRUE(wizard_.act(WizardAction::kAccept));
+  EXPECT_FALSE(wizard_.act(WizardAction::kStart));
+  EXPECT_EQ(wizard_.step(), WizardStep::kStand);
+  EXPECT_TRUE(wizard_.ui_state().error.empty());
+}
+
+TEST_F(Wizard, DiscardsTheMaterialOnCancel) {
+  stand();
+  show(filmed(marey::testing::range_of_motion(truth_), 7.0));
+  EXPECT_TRUE(wizard_.act(WizardAction::kStart));
+  EXPECT_FALSE(wizard_.act(WizardAction::kCancel));
+  EXPECT_EQ(wizard_.step(), WizardStep::kIdle);
+  EXPECT_FALSE(wizard_.take_material());
+  wizard_.finish(bad_input("", "too late", ""));
+  EXPECT_EQ(wizard_.step(), WizardStep::kIdle);
 }
 
 }  // namespace

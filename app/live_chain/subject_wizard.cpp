@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live_chain/guide_subject.h"
+#include "app/live_chain/subject_wizard.h"
 
 #include <algorithm>
 #include <array>
@@ -25,7 +25,7 @@ constexpr double kMinPartsShare = 0.6;
 constexpr double kStillShare = 0.015;
 constexpr std::size_t kMinShifts = 4;
 /// Maximum time that counts between two instants.
-constexpr double kMaxGuideStep_s = 0.2;
+constexpr double kMaxWizardStep_s = 0.2;
 /// A part counts as seen after this number of instants with two sightings.
 constexpr int kPairs = 10;
 // Minimum durations, for an early "next" and for recordings that end.
@@ -61,7 +61,7 @@ std::size_t cell_of(const glm::dvec2& p_px, const Intrinsics& picture) {
 
 }  // namespace
 
-SubjectGuide::SubjectGuide(GuideSetup setup, const GuideOptions& options)
+SubjectWizard::SubjectWizard(WizardSetup setup, const WizardOptions& options)
     : setup_(std::move(setup)), options_(options) {
   MAREY_ASSERT(setup_.cameras.size() == setup_.rms_px.size());
   MAREY_ASSERT(!setup_.prior.tags.empty());
@@ -72,7 +72,7 @@ SubjectGuide::SubjectGuide(GuideSetup setup, const GuideOptions& options)
       "then move every joint.";
 }
 
-std::optional<std::string> SubjectGuide::act(WizardAction action) {
+std::optional<std::string> SubjectWizard::act(WizardAction action) {
   const WizardStep now = step();
   const bool is_busy =
       now == WizardStep::kStand || now == WizardStep::kMove || now == WizardStep::kSolve;
@@ -82,7 +82,7 @@ std::optional<std::string> SubjectGuide::act(WizardAction action) {
       start();
       return std::nullopt;
     case WizardAction::kCancel:
-      ui_state_ = SubjectGuide(setup_, options_).ui_state();
+      ui_state_ = SubjectWizard(setup_, options_).ui_state();
       material_ = {};
       has_material_ = false;
       return std::nullopt;
@@ -109,7 +109,7 @@ std::optional<std::string> SubjectGuide::act(WizardAction action) {
   return std::nullopt;
 }
 
-void SubjectGuide::start() {
+void SubjectWizard::start() {
   ui_state_ = {};
   ui_state_.step = WizardStep::kStand;
   ui_state_.title = "Stand still";
@@ -131,7 +131,7 @@ void SubjectGuide::start() {
   for (auto& places : stood_px_) places.assign(tags, std::nullopt);
 }
 
-void SubjectGuide::begin_move() {
+void SubjectWizard::begin_move() {
   ui_state_.step = WizardStep::kMove;
   ui_state_.title = "Move every joint";
   ui_state_.text = kMoves.front();
@@ -140,7 +140,7 @@ void SubjectGuide::begin_move() {
   last_.reset();
 }
 
-void SubjectGuide::begin_solve() {
+void SubjectWizard::begin_solve() {
   ui_state_.step = WizardStep::kSolve;
   ui_state_.title = "Wait";
   ui_state_.text = "The body is computed from the recorded tags. This can take a minute.";
@@ -148,7 +148,7 @@ void SubjectGuide::begin_solve() {
   has_material_ = true;
 }
 
-void SubjectGuide::fail(const std::string& why) {
+void SubjectWizard::fail(const std::string& why) {
   ui_state_.step = WizardStep::kFailed;
   ui_state_.title = "The measurement failed";
   ui_state_.text = "Follow the steps of the message, then start again.";
@@ -157,7 +157,7 @@ void SubjectGuide::fail(const std::string& why) {
   has_material_ = false;
 }
 
-void SubjectGuide::process(const LiveInstant& instant) {
+void SubjectWizard::process(const LiveInstant& instant) {
   if (step() != WizardStep::kStand && step() != WizardStep::kMove) return;
   update_visible_tags(instant);
   if (step() == WizardStep::kStand) {
@@ -167,7 +167,7 @@ void SubjectGuide::process(const LiveInstant& instant) {
   }
 }
 
-void SubjectGuide::end() {
+void SubjectWizard::end() {
   if (step() == WizardStep::kMove && counted_s_ >= kMinMove_s) return begin_solve();
   if (step() == WizardStep::kStand) {
     fail(
@@ -180,7 +180,7 @@ void SubjectGuide::end() {
 }
 
 /// Updates the visible tags and their positions in the pictures.
-void SubjectGuide::update_visible_tags(const LiveInstant& instant) {
+void SubjectWizard::update_visible_tags(const LiveInstant& instant) {
   std::fill(now_.begin(), now_.end(), 0);
   for (const CameraTags& view : instant.views) {
     const std::size_t c = index(view.camera);
@@ -198,7 +198,7 @@ void SubjectGuide::update_visible_tags(const LiveInstant& instant) {
   }
 }
 
-void SubjectGuide::add_standing(const LiveInstant& instant) {
+void SubjectWizard::add_standing(const LiveInstant& instant) {
   const std::set<HumanBone> there = parts_of(now_, 1);
   const bool is_enough = there.contains(HumanBone::kHips) &&
                          static_cast<double>(there.size()) >=
@@ -223,7 +223,7 @@ void SubjectGuide::add_standing(const LiveInstant& instant) {
   if (counted_s_ >= options_.stand_s) begin_move();
 }
 
-void SubjectGuide::move(const LiveInstant& instant) {
+void SubjectWizard::move(const LiveInstant& instant) {
   if (!parts_of(now_, 1).contains(HumanBone::kHips)) {
     last_.reset();
     ui_state_.text = "No camera sees a tag of the hips: stay in the middle.";
@@ -252,14 +252,14 @@ void SubjectGuide::move(const LiveInstant& instant) {
   }
 }
 
-void SubjectGuide::count_time(Timestamp time) {
-  if (last_) counted_s_ += std::clamp(seconds(time - *last_), 0.0, kMaxGuideStep_s);
+void SubjectWizard::count_time(Timestamp time) {
+  if (last_) counted_s_ += std::clamp(seconds(time - *last_), 0.0, kMaxWizardStep_s);
   last_ = time;
 }
 
 /// Returns true if the tags have moved since the standing began, and then stores their
 /// new positions.
-bool SubjectGuide::has_moved(const LiveInstant& instant) {
+bool SubjectWizard::has_moved(const LiveInstant& instant) {
   shifts_.clear();
   const auto compare = [&](bool replace) {
     for (const CameraTags& view : instant.views) {
@@ -287,8 +287,8 @@ bool SubjectGuide::has_moved(const LiveInstant& instant) {
   return true;
 }
 
-void SubjectGuide::keep(const LiveInstant& instant,
-                        std::vector<CameraDetections>& out) const {
+void SubjectWizard::keep(const LiveInstant& instant,
+                         std::vector<CameraDetections>& out) const {
   for (CameraDetections& camera : out) {
     camera.frames.push_back({static_cast<int>(camera.frames.size()), {}, {}});
   }
@@ -302,7 +302,7 @@ void SubjectGuide::keep(const LiveInstant& instant,
 
 /// Returns the number of sightings of a part in this instant, over its tags and all
 /// cameras.
-int SubjectGuide::sightings_of(HumanBone part) const {
+int SubjectWizard::sightings_of(HumanBone part) const {
   int sightings = 0;
   for (std::size_t t = 0; t < now_.size(); ++t) {
     if (setup_.prior.tags[t].segment == part) sightings += now_[t];
@@ -311,8 +311,8 @@ int SubjectGuide::sightings_of(HumanBone part) const {
 }
 
 /// Returns the parts with a tag whose count is at least `min_count`.
-std::set<HumanBone> SubjectGuide::parts_of(const std::vector<int>& counts,
-                                           int min_count) const {
+std::set<HumanBone> SubjectWizard::parts_of(const std::vector<int>& counts,
+                                            int min_count) const {
   std::set<HumanBone> parts;
   for (std::size_t t = 0; t < counts.size(); ++t) {
     if (counts[t] >= min_count) parts.insert(setup_.prior.tags[t].segment);
@@ -320,7 +320,7 @@ std::set<HumanBone> SubjectGuide::parts_of(const std::vector<int>& counts,
   return parts;
 }
 
-std::string SubjectGuide::missing_parts(const std::set<HumanBone>& there) const {
+std::string SubjectWizard::missing_parts(const std::set<HumanBone>& there) const {
   constexpr int kMax = 3;
   std::string names;
   int missing = 0;
@@ -332,7 +332,7 @@ std::string SubjectGuide::missing_parts(const std::set<HumanBone>& there) const 
   return names.empty() ? "" : "Missing: " + names + ".";
 }
 
-std::vector<CameraDetections> SubjectGuide::nothing_seen() const {
+std::vector<CameraDetections> SubjectWizard::nothing_seen() const {
   std::vector<CameraDetections> out(setup_.cameras.size());
   for (std::size_t c = 0; c < out.size(); ++c) {
     out[c].source = setup_.cameras[c].name;
@@ -344,13 +344,13 @@ std::vector<CameraDetections> SubjectGuide::nothing_seen() const {
   return out;
 }
 
-std::optional<GuideMaterial> SubjectGuide::take_material() {
+std::optional<WizardMaterial> SubjectWizard::take_material() {
   if (!has_material_) return std::nullopt;
   has_material_ = false;
   return std::exchange(material_, {});
 }
 
-void SubjectGuide::finish(const Result<reconstruct::SubjectFit>& fit) {
+void SubjectWizard::finish(const Result<reconstruct::SubjectFit>& fit) {
   if (step() != WizardStep::kSolve) return;
   if (!fit) return fail(fit.error().message());
   ui_state_.step = WizardStep::kDone;
@@ -360,14 +360,14 @@ void SubjectGuide::finish(const Result<reconstruct::SubjectFit>& fit) {
                              : "Some values are poor: cancel and start again.";
 }
 
-void SubjectGuide::refuse_acceptance(const std::string& why) {
+void SubjectWizard::refuse_acceptance(const std::string& why) {
   MAREY_ASSERT(step() == WizardStep::kIdle && !ui_state_.quality.empty());
   ui_state_.step = WizardStep::kDone;
   ui_state_.title = "The body is measured, but could not be stored";
   ui_state_.error = why;
 }
 
-bool SubjectGuide::is_good() const {
+bool SubjectWizard::is_good() const {
   return step() == WizardStep::kDone &&
          std::all_of(ui_state_.quality.begin(),
                      ui_state_.quality.end(),
