@@ -120,10 +120,10 @@ std::vector<Camera> cameras_of(const std::vector<testing::TagView>& views) {
   return cameras;
 }
 
-void judge(const std::vector<testing::TagView>& views,
-           const RigidTransform& world_from_tag,
-           PlanOptions options,
-           Tally& tally) {
+void evaluate_views(const std::vector<testing::TagView>& views,
+                    const RigidTransform& world_from_tag,
+                    PlanOptions options,
+                    Tally& tally) {
   // A camera that detects the tag sees it: these limits reject none of them.
   options.max_angle_rad = 1.55;
   options.min_side_px = 1.0;
@@ -231,7 +231,7 @@ void measure(const std::filesystem::path& session) {
     const auto seen = sightings.find(key);
     if (seen == sightings.end() || seen->second.size() < 2) continue;
     ++tally.found_twice;
-    judge(seen->second, world_from_tag, options, tally);
+    evaluate_views(seen->second, world_from_tag, options, tally);
   }
   for (const auto& [size_mm, t] : by_size_mm) {
     if (t.tags == 0) continue;

@@ -115,11 +115,11 @@ struct HeldOut {
 
 /// Triangulates a tag with the calibrated cameras. Adds the errors of its sides and the
 /// reprojection errors in held-out cameras to `out`.
-void judge_tag(const std::vector<Camera>& cameras,
-               const Tracks& tracks,
-               TagId id,
-               double size_m,
-               HeldOut& out) {
+void measure_tag_error(const std::vector<Camera>& cameras,
+                       const Tracks& tracks,
+                       TagId id,
+                       double size_m,
+                       HeldOut& out) {
   for (std::size_t f = 0; f < tracks.cameras[0].frames.size(); ++f) {
     std::vector<std::pair<std::size_t, const TagDetection*>> views;
     for (std::size_t c = 0; c < cameras.size(); ++c) {
@@ -199,7 +199,7 @@ int measure_wand(const std::filesystem::path& folder) {
     print_rig(found->rig);
     HeldOut seen;
     for (const Wand::Tag& tag : wand.tags) {
-      judge_tag(found->rig.cameras, tracks, tag.id, tag.size_m, seen);
+      measure_tag_error(found->rig.cameras, tracks, tag.id, tag.size_m, seen);
     }
     print_held_out("all tags took part", seen);
     HeldOut held;
@@ -213,9 +213,9 @@ int measure_wand(const std::filesystem::path& folder) {
         continue;
       }
       HeldOut one;
-      judge_tag(without->rig.cameras, tracks, tag.id, tag.size_m, one);
+      measure_tag_error(without->rig.cameras, tracks, tag.id, tag.size_m, one);
       print_held_out(("without tag " + std::to_string(number(tag.id))).c_str(), one);
-      judge_tag(without->rig.cameras, tracks, tag.id, tag.size_m, held);
+      measure_tag_error(without->rig.cameras, tracks, tag.id, tag.size_m, held);
     }
     print_held_out("held-out tags", held);
   }
@@ -239,7 +239,7 @@ int measure_room(const std::filesystem::path& folder) {
   print_rig(found->rig);
   HeldOut seen;
   for (const Wand::Tag& tag : room.tags) {
-    judge_tag(found->rig.cameras, tracks, tag.id, tag.size_m, seen);
+    measure_tag_error(found->rig.cameras, tracks, tag.id, tag.size_m, seen);
   }
   print_held_out("all tags took part", seen);
   return 0;

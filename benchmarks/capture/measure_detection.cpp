@@ -127,8 +127,8 @@ struct Bucket {
   double outward = 0.0;
 };
 
-void judge(const std::vector<tests::CornerResidual>& residuals,
-           std::map<int, Bucket>& buckets) {
+void add_residuals(const std::vector<tests::CornerResidual>& residuals,
+                   std::map<int, Bucket>& buckets) {
   for (const auto& r : residuals) {
     // A detection at another tag's position is no corner error.
     constexpr double kElsewherePx = 5.0;
@@ -179,8 +179,8 @@ void measure(const std::filesystem::path& session, std::map<int, Bucket>& all) {
     wrong += wrong_ids(residuals);
     // The truth of a late camera lies between frames and is too inaccurate.
     if (truth.late_frames[c] != 0.0) continue;
-    judge(residuals, buckets);
-    judge(residuals, all);
+    add_residuals(residuals, buckets);
+    add_residuals(residuals, all);
   }
   const int of_full = tally.both + tally.lost;
   std::printf(
