@@ -47,16 +47,16 @@ std::array<LegPath, 2> reference_legs(const Skeleton& body,
   return legs;
 }
 
-// Puts both feet where plan_foot() plans them.
+// Puts both feet where plan_foot_path() plans them.
 void plan(const BodyMap& map,
           const Contacts& contacts,
           FrameRate rate,
-          const PlanFootOptions& options,
+          const FootPathOptions& options,
           std::array<LegPath, 2>& legs) {
   for (std::size_t side = 0; side < 2; ++side) {
     LegPath& leg = legs[side];
     MAREY_ASSERT(static_cast<int>(leg.foot.size()) == contacts.frame_count);
-    leg.foot = plan_foot(
+    leg.foot = plan_foot_path(
         leg.foot, contacts.feet[side], map.feet[side], map.leg_length_m, rate, options);
   }
 }
@@ -181,7 +181,7 @@ std::array<std::vector<FootPlace>, 2> plan_level_feet(
     const Contacts& contacts,
     FrameRate rate,
     std::span<const NormalizedPose> poses,
-    const PlanFootOptions& options) {
+    const FootPathOptions& options) {
   std::array<LegPath, 2> legs = reference_legs(body, map, poses);
   plan(map, contacts, rate, options, legs);
   return {std::move(legs[0].foot), std::move(legs[1].foot)};

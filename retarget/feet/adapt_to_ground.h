@@ -11,12 +11,12 @@
 #include "retarget/body/body_map.h"
 #include "retarget/body/normalized_skeleton.h"
 #include "retarget/contacts/detect_contacts.h"
-#include "retarget/feet/plan_foot.h"
+#include "retarget/feet/plan_foot_path.h"
 
 namespace marey::retarget {
 
 struct GroundOptions {
-  PlanFootOptions feet;
+  FootPathOptions feet;
   /// The root starts to sink this long before a leg would be too short, and rises as long
   /// after. [s]
   double anticipation_s = 0.2;
@@ -59,11 +59,11 @@ struct GroundReport {
 /// 4.2.4.1).
 ///
 /// `poses` are the reference postures at this body's size, one per frame of `contacts`.
-/// The feet follow plan_foot(). The root keeps its path, and its height unless a bearing
-/// leg would not reach: the height is then the minimum of the reference's and those at
-/// which each bearing leg is straight, smoothed over time (the thesis takes the minimum
-/// posture by posture). Legs follow analytically. Frames in which no foot bears, more
-/// than `anticipation_s` away from one that does, keep their root height. Linear in
+/// The feet follow plan_foot_path(). The root keeps its path, and its height unless a
+/// bearing leg would not reach: the height is then the minimum of the reference's and
+/// those at which each bearing leg is straight, smoothed over time (the thesis takes the
+/// minimum posture by posture). Legs follow analytically. Frames in which no foot bears,
+/// more than `anticipation_s` away from one that does, keep their root height. Linear in
 /// frames, and in `anticipation_s`; one expansion per frame.
 GroundReport adapt_to_ground(const Skeleton& body,
                              const BodyMap& map,
@@ -73,7 +73,7 @@ GroundReport adapt_to_ground(const Skeleton& body,
                              const GroundOptions& options = {});
 
 /// Returns the planned feet of adapt_to_ground(), left and right, one place per pose:
-/// plan_foot() of both.
+/// plan_foot_path() of both.
 /// Precondition: one pose per frame of `contacts`.
 [[nodiscard]] std::array<std::vector<FootPlace>, 2> plan_level_feet(
     const Skeleton& body,
@@ -81,7 +81,7 @@ GroundReport adapt_to_ground(const Skeleton& body,
     const Contacts& contacts,
     FrameRate rate,
     std::span<const NormalizedPose> poses,
-    const PlanFootOptions& options = {});
+    const FootPathOptions& options = {});
 
 /// Adapts a motion as adapt_to_ground() does, to other planned feet, above any floor: the
 /// root sinks where a bearing leg would not reach; legs, feet and toes follow. `feet` are

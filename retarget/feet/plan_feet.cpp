@@ -9,7 +9,7 @@
 #include "core/pose.h"
 #include "retarget/body/rotation_from_t_pose.h"
 #include "retarget/feet/leg_placement.h"
-#include "retarget/feet/plan_foot.h"
+#include "retarget/feet/plan_foot_path.h"
 
 namespace marey::retarget {
 namespace {
@@ -45,11 +45,11 @@ std::array<FloorFoot, 2> plan_feet(const Motion& motion,
   MAREY_ASSERT(motion.rate.hz > 0.0);
   std::array<std::vector<FootPlace>, 2> flat;
   for (std::size_t side = 0; side < 2; ++side) {
-    flat[side] = plan_foot(foot_places(motion, map, side, floor_height_m),
-                           contacts.feet[side],
-                           map.feet[side],
-                           map.leg_length_m,
-                           motion.rate);
+    flat[side] = plan_foot_path(foot_places(motion, map, side, floor_height_m),
+                                contacts.feet[side],
+                                map.feet[side],
+                                map.leg_length_m,
+                                motion.rate);
   }
   const Floor level;
   std::array<FloorFoot, 2> feet = stand_feet_on(floor == nullptr ? level : *floor,

@@ -12,7 +12,7 @@
 
 namespace marey::retarget {
 
-/// Plans both feet of a motion: plan_foot() on the level floor at world Y =
+/// Plans both feet of a motion: plan_foot_path() on the level floor at world Y =
 /// `floor_height_m`, then stand_feet_on() if there is another `floor`, whose heights are
 /// relative to that one; without it no displacement. Cost: frames times stances.
 /// Precondition: `map` was made from the motion's skeleton; `contacts` has its frames.

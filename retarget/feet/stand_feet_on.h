@@ -10,7 +10,7 @@
 #include "core/floor.h"
 #include "retarget/body/body_map.h"
 #include "retarget/contacts/detect_contacts.h"
-#include "retarget/feet/plan_foot.h"
+#include "retarget/feet/plan_foot_path.h"
 
 namespace marey::retarget {
 
@@ -35,7 +35,8 @@ struct StandFeetOptions {
   double max_foot_pitch_rad = 0.6;
 };
 
-/// Puts feet that were planned on the level floor Y = 0 (plan_foot()) on another floor.
+/// Puts feet that were planned on the level floor Y = 0 (plan_foot_path()) on another
+/// floor.
 ///
 /// Each stance stands, as a rigid whole, on the plane of one part: the part under its
 /// ankle when it begins; in stances on the ball alone, the part under the ball. So a foot

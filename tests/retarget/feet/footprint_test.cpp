@@ -12,7 +12,7 @@
 
 #include "core/base/degrees.h"
 #include "retarget/base/smooth_step.h"
-#include "retarget/feet/plan_foot.h"
+#include "retarget/feet/plan_foot_path.h"
 
 namespace marey::retarget {
 namespace {
@@ -52,7 +52,7 @@ struct TurningFoot {
     contacts.heel = contacts.ball = contacts.stance = {{0, 119}};
   }
   [[nodiscard]] std::vector<FootPlace> plan() const {
-    return plan_foot(reference, contacts, kFoot, 0.85, kRate);
+    return plan_foot_path(reference, contacts, kFoot, 0.85, kRate);
   }
 };
 

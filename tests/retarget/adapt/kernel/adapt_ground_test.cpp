@@ -9,7 +9,7 @@
 
 #include "core/pose.h"
 #include "retarget/feet/adapt_to_ground.h"
-#include "retarget/feet/plan_foot.h"
+#include "retarget/feet/plan_foot_path.h"
 #include "tests/support/bodies/random_bodies.h"
 
 namespace marey::retarget {
@@ -136,7 +136,7 @@ struct Swing {
     contacts.heel = contacts.ball = contacts.stance = {{0, 29}, {60, 89}};
   }
   [[nodiscard]] std::vector<FootPlace> plan() const {
-    return plan_foot(reference, contacts, foot, 0.85, {60.0});
+    return plan_foot_path(reference, contacts, foot, 0.85, {60.0});
   }
 };
 

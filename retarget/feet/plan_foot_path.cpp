@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/feet/plan_foot.h"
+#include "retarget/feet/plan_foot_path.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,7 @@ glm::dvec3 fading(const Edge& edge, double since_s, double fade_s) {
 }
 
 // Fills the frames first..last, whose neighbours are prescribed (or the motion's ends).
-void bridge_gap(Prescribed& p, int first, int last, double hz, const PlanFootOptions& o) {
+void bridge_gap(Prescribed& p, int first, int last, double hz, const FootPathOptions& o) {
   const int count = static_cast<int>(p.size());
   std::optional<Edge> before;
   std::optional<Edge> after;
@@ -82,7 +82,7 @@ void bridge_gap(Prescribed& p, int first, int last, double hz, const PlanFootOpt
 
 // Fills all gaps with continuous speed across every edge, exact where prescribed; zero if
 // nothing is prescribed.
-std::vector<glm::dvec3> bridge(Prescribed p, double hz, const PlanFootOptions& o) {
+std::vector<glm::dvec3> bridge(Prescribed p, double hz, const FootPathOptions& o) {
   const int count = static_cast<int>(p.size());
   const Prescribed given = p;
   const auto is_given = [&](int t) {
@@ -106,7 +106,7 @@ struct FootPlanTask {
   const FootMap& foot;
   double leg_length_m = 0.0;
   double hz = 0.0;
-  const PlanFootOptions& options;
+  const FootPathOptions& options;
   std::vector<char> heel;  // Per frame: 1 if it bears.
   std::vector<char> ball;
   std::vector<FrameRange> heel_up;  // Runs in which a foot on its ball does not move.
@@ -231,12 +231,12 @@ void place_ankles(const FootPlanTask& task, std::vector<FootPlace>& out) {
 
 }  // namespace
 
-std::vector<FootPlace> plan_foot(std::span<const FootPlace> reference,
-                                 const FootContacts& contacts,
-                                 const FootMap& foot,
-                                 double leg_length_m,
-                                 FrameRate rate,
-                                 const PlanFootOptions& options) {
+std::vector<FootPlace> plan_foot_path(std::span<const FootPlace> reference,
+                                      const FootContacts& contacts,
+                                      const FootMap& foot,
+                                      double leg_length_m,
+                                      FrameRate rate,
+                                      const FootPathOptions& options) {
   MAREY_ASSERT(rate.hz > 0.0 && options.blend_s > 0.0);
   const std::size_t count = reference.size();
   FootPlanTask task{reference,

@@ -12,7 +12,7 @@
 
 namespace marey::retarget {
 
-struct PlanFootOptions {
+struct FootPathOptions {
   /// Time over which the speed of a contact's displacement fades out after it, and in
   /// before it. Longer is smoother, and follows noise further. [s]
   double blend_s = 0.28;
@@ -32,11 +32,11 @@ struct PlanFootOptions {
 ///
 /// `reference` holds the foot in the posture to keep, one entry per frame of `contacts`;
 /// the result has the same length. Linear in frames.
-[[nodiscard]] std::vector<FootPlace> plan_foot(std::span<const FootPlace> reference,
-                                               const FootContacts& contacts,
-                                               const FootMap& foot,
-                                               double leg_length_m,
-                                               FrameRate rate,
-                                               const PlanFootOptions& options = {});
+[[nodiscard]] std::vector<FootPlace> plan_foot_path(std::span<const FootPlace> reference,
+                                                    const FootContacts& contacts,
+                                                    const FootMap& foot,
+                                                    double leg_length_m,
+                                                    FrameRate rate,
+                                                    const FootPathOptions& options = {});
 
 }  // namespace marey::retarget
