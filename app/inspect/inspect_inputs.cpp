@@ -52,7 +52,7 @@ Result<Json> inspect_segments(const fs::path& file) {
   std::set<std::string> segments;
   std::set<int> frames;
   std::map<std::string, int> sources;
-  for (const recordings::SegmentRow& row : *rows) {
+  for (const recordings::SegmentTableRow& row : *rows) {
     segments.insert(row.segment);
     frames.insert(row.frame);
     ++sources[std::string(name(row.source))];

@@ -64,7 +64,7 @@ Status read_uncertainty(const fs::path& folder, ViewedFigure& figure, int& first
   figure.uncertainty.assign(
       figure.motion.poses.size(),
       std::vector<JointUncertainty>(figure.motion.skeleton.joints.size()));
-  for (const recordings::SegmentRow& row : *segments) {
+  for (const recordings::SegmentTableRow& row : *segments) {
     JointUncertainty* at =
         find(row.frame, row.segment, places, first_frame, figure.uncertainty);
     if (at != nullptr) at->source = row.source;

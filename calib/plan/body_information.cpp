@@ -54,7 +54,7 @@ std::vector<BodyView> views_of(std::span<const Camera> cameras,
                                const PlannedBody& body,
                                const BodyPlace& place,
                                const PlanOptions& options) {
-  const std::vector<Capsule> soft_tissue = soft_tissue_of(body, place);
+  const std::vector<SoftTissueCapsule> soft_tissue = soft_tissue_of(body, place);
   std::vector<BodyView> views;
   for (std::size_t t = 0; t < body.tags.size(); ++t) {
     const PlacedTag& tag = body.tags[t];

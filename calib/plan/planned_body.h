@@ -53,19 +53,19 @@ using BodyPlace = std::array<RigidTransform, kHumanBoneCount>;
 
 /// An opaque part of the body: all points within `radius_m` of the line between two
 /// points of the world.
-struct Capsule {
+struct SoftTissueCapsule {
   glm::dvec3 from_in_world{0.0};
   glm::dvec3 to_in_world{0.0};
   double radius_m = 0.0;
 };
 
 /// Returns the whole body, with the thicknesses of a lean adult.
-[[nodiscard]] std::vector<Capsule> soft_tissue_of(const PlannedBody& body,
-                                                  const BodyPlace& place);
+[[nodiscard]] std::vector<SoftTissueCapsule> soft_tissue_of(const PlannedBody& body,
+                                                            const BodyPlace& place);
 
 /// Returns true if the straight line between two points passes through a capsule. Linear.
 [[nodiscard]] bool is_hidden(const glm::dvec3& p_in_world,
                              const glm::dvec3& eye_in_world,
-                             std::span<const Capsule> soft_tissue);
+                             std::span<const SoftTissueCapsule> soft_tissue);
 
 }  // namespace marey::calib

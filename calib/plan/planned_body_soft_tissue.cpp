@@ -73,8 +73,9 @@ double distance2(const glm::dvec3& p1,
 
 }  // namespace
 
-std::vector<Capsule> soft_tissue_of(const PlannedBody& body, const BodyPlace& place) {
-  std::vector<Capsule> soft_tissue;
+std::vector<SoftTissueCapsule> soft_tissue_of(const PlannedBody& body,
+                                              const BodyPlace& place) {
+  std::vector<SoftTissueCapsule> soft_tissue;
   const auto add = [&](const Part& part, bool mirror) {
     const auto at = [&](B bone, glm::dvec3 offset) {
       if (mirror) {
@@ -96,11 +97,12 @@ std::vector<Capsule> soft_tissue_of(const PlannedBody& body, const BodyPlace& pl
 
 bool is_hidden(const glm::dvec3& p_in_world,
                const glm::dvec3& eye_in_world,
-               std::span<const Capsule> soft_tissue) {
-  return std::any_of(soft_tissue.begin(), soft_tissue.end(), [&](const Capsule& part) {
-    return distance2(p_in_world, eye_in_world, part.from_in_world, part.to_in_world) <
-           part.radius_m * part.radius_m;
-  });
+               std::span<const SoftTissueCapsule> soft_tissue) {
+  return std::any_of(
+      soft_tissue.begin(), soft_tissue.end(), [&](const SoftTissueCapsule& part) {
+        return distance2(p_in_world, eye_in_world, part.from_in_world, part.to_in_world) <
+               part.radius_m * part.radius_m;
+      });
 }
 
 }  // namespace marey::calib

@@ -121,8 +121,8 @@ JointRow joint_row(CsvFields& fields) {
 }
 
 /// nullopt when the last field is not a source.
-std::optional<SegmentRow> segment_row(CsvFields& fields) {
-  SegmentRow row;
+std::optional<SegmentTableRow> segment_row(CsvFields& fields) {
+  SegmentTableRow row;
   row.frame = fields.number<int>();
   row.time_s = fields.number<double>();
   row.segment = fields.text();
@@ -213,9 +213,9 @@ Result<std::vector<JointRow>> parse_joints_csv(std::string_view text,
   });
 }
 
-Result<std::vector<SegmentRow>> parse_segments_csv(std::string_view text,
-                                                   const std::string& file) {
-  return parse_table<SegmentRow>(text, file, kSegmentsHeader, segment_row);
+Result<std::vector<SegmentTableRow>> parse_segments_csv(std::string_view text,
+                                                        const std::string& file) {
+  return parse_table<SegmentTableRow>(text, file, kSegmentsHeader, segment_row);
 }
 
 Result<std::vector<JointRow>> read_joints_csv(const std::filesystem::path& path) {
@@ -224,7 +224,8 @@ Result<std::vector<JointRow>> read_joints_csv(const std::filesystem::path& path)
   return parse_joints_csv(*text, path.string());
 }
 
-Result<std::vector<SegmentRow>> read_segments_csv(const std::filesystem::path& path) {
+Result<std::vector<SegmentTableRow>> read_segments_csv(
+    const std::filesystem::path& path) {
   const Result<std::string> text = read_file(path);
   if (!text) return text.error();
   return parse_segments_csv(*text, path.string());

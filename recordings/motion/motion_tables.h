@@ -27,7 +27,7 @@ struct JointRow {
 };
 
 /// A row of segments.csv.
-struct SegmentRow {
+struct SegmentTableRow {
   int frame = 0;
   double time_s = 0.0;  ///< Since the trial's frame 0.
   std::string segment;
@@ -62,11 +62,11 @@ struct SegmentRow {
 // number.
 [[nodiscard]] Result<std::vector<JointRow>> parse_joints_csv(std::string_view text,
                                                              const std::string& file);
-[[nodiscard]] Result<std::vector<SegmentRow>> parse_segments_csv(std::string_view text,
-                                                                 const std::string& file);
+[[nodiscard]] Result<std::vector<SegmentTableRow>> parse_segments_csv(
+    std::string_view text, const std::string& file);
 [[nodiscard]] Result<std::vector<JointRow>> read_joints_csv(
     const std::filesystem::path& path);
-[[nodiscard]] Result<std::vector<SegmentRow>> read_segments_csv(
+[[nodiscard]] Result<std::vector<SegmentTableRow>> read_segments_csv(
     const std::filesystem::path& path);
 /// Reads the output of write_places_csv(); every sigma is 0.
 [[nodiscard]] Result<std::vector<JointRow>> read_places_csv(

@@ -140,8 +140,8 @@ BoardPicture picture_of(const CharucoBoard& board, std::span<const TagPattern> p
   return picture;
 }
 
-PageFrame frame_of(const AprilGrid& grid, const TagFamilyShape& family) {
-  PageFrame frame;
+PrintFrame frame_of(const AprilGrid& grid, const TagFamilyShape& family) {
+  PrintFrame frame;
   frame.title = "AprilGrid " + std::to_string(grid.columns) + " x " +
                 std::to_string(grid.rows) + ", " + family.name + " " +
                 std::to_string(grid.first_id) + " to " +
@@ -164,8 +164,8 @@ std::string squares_text(int columns, int rows) {
   return std::to_string(columns) + " x " + std::to_string(rows) + " squares";
 }
 
-PageFrame frame_of(const CharucoBoard& board) {
-  PageFrame frame;
+PrintFrame frame_of(const CharucoBoard& board) {
+  PrintFrame frame;
   frame.title =
       "ChArUco " + squares_text(board.columns, board.rows) + ", " + board.dictionary;
   frame.how_to = kGlueIt;
@@ -180,8 +180,8 @@ PageFrame frame_of(const CharucoBoard& board) {
   return frame;
 }
 
-PageFrame frame_of(const Chessboard& board) {
-  PageFrame frame;
+PrintFrame frame_of(const Chessboard& board) {
+  PrintFrame frame;
   frame.title = "Chessboard " + squares_text(board.columns, board.rows);
   frame.how_to = kGlueIt;
   frame.table = lines_of(board_table(board));

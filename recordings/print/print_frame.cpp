@@ -40,13 +40,13 @@ std::vector<std::string> wrapped(const std::string& text, double width_m) {
   return lines;
 }
 
-double table_width(const PageFrame& frame) {
+double table_width(const PrintFrame& frame) {
   std::size_t letters = 0;
   for (const std::string& line : frame.table) letters = std::max(letters, line.size());
   return static_cast<double>(letters) * kFixedLetter * kTableText_m;
 }
 
-double table_height(const PageFrame& frame) {
+double table_height(const PrintFrame& frame) {
   return static_cast<double>(frame.table.size()) * kTableLine_m;
 }
 
@@ -54,17 +54,17 @@ double inner_width(const Paper& paper) {
   return paper.width_m - 2.0 * paper.margin_m;
 }
 
-bool fits_next_to_ruler(const Paper& paper, const PageFrame& frame) {
+bool fits_next_to_ruler(const Paper& paper, const PrintFrame& frame) {
   return kRuler_m + kTableGap_m + table_width(frame) <= inner_width(paper);
 }
 
-double header_height(const Paper& paper, const PageFrame& frame) {
+double header_height(const Paper& paper, const PrintFrame& frame) {
   const auto lines =
       static_cast<double>(wrapped(frame.how_to, inner_width(paper)).size());
   return kTitle_m + 0.0015 + lines * kLine_m + 0.003;
 }
 
-double footer_height(const Paper& paper, const PageFrame& frame) {
+double footer_height(const Paper& paper, const PrintFrame& frame) {
   const double table = table_height(frame);
   if (frame.table.empty()) return kRulerBlock_m + 0.003;
   if (fits_next_to_ruler(paper, frame)) return std::max(kRulerBlock_m, table) + 0.003;
@@ -106,7 +106,7 @@ void add_ruler(PrintedPage& page, double left, double top) {
 
 void add_header(PrintedPage& page,
                 const Paper& paper,
-                const PageFrame& frame,
+                const PrintFrame& frame,
                 const std::string& count) {
   const double left = paper.margin_m;
   const double right = paper.width_m - paper.margin_m;
@@ -133,7 +133,7 @@ void add_header(PrintedPage& page,
   }
 }
 
-void add_table(PrintedPage& page, const Paper& paper, const PageFrame& frame) {
+void add_table(PrintedPage& page, const Paper& paper, const PrintFrame& frame) {
   if (frame.table.empty()) return;
   const bool next_to_ruler = fits_next_to_ruler(paper, frame);
   const double bottom =
@@ -154,14 +154,17 @@ void add_table(PrintedPage& page, const Paper& paper, const PageFrame& frame) {
 
 }  // namespace
 
-PrintBox space_for_patterns(const Paper& paper, const PageFrame& frame) {
+PrintBox space_for_patterns(const Paper& paper, const PrintFrame& frame) {
   return {paper.margin_m,
           paper.margin_m + header_height(paper, frame),
           paper.width_m - paper.margin_m,
           paper.height_m - paper.margin_m - footer_height(paper, frame)};
 }
 
-PrintedPage framed_page(const Paper& paper, const PageFrame& frame, int page, int pages) {
+PrintedPage framed_page(const Paper& paper,
+                        const PrintFrame& frame,
+                        int page,
+                        int pages) {
   PrintedPage out;
   out.width_m = paper.width_m;
   out.height_m = paper.height_m;
@@ -190,7 +193,7 @@ Paper turned(const Paper& paper) {
 std::string page_that_holds(double width_m,
                             double height_m,
                             const Paper& paper,
-                            const PageFrame& frame) {
+                            const PrintFrame& frame) {
   constexpr double kRounding_m = 1e-9;
   const std::array<Paper, 2> known{
       {{"A4", 0.210, 0.297, paper.margin_m}, {"A3", 0.297, 0.420, paper.margin_m}}};

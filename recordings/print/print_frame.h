@@ -13,18 +13,18 @@ namespace marey::recordings {
 
 /// Content around the patterns on each page of a document: title and instructions above,
 /// the ruler and a small table below.
-struct PageFrame {
+struct PrintFrame {
   std::string title;
   std::string how_to;
   std::vector<std::string> table;  ///< Lines, in a fixed-width font.
 };
 
 /// Returns the area for the patterns. May be empty or inverted on small paper.
-[[nodiscard]] PrintBox space_for_patterns(const Paper& paper, const PageFrame& frame);
+[[nodiscard]] PrintBox space_for_patterns(const Paper& paper, const PrintFrame& frame);
 
 /// Returns a page with its frame. `page` counts from 1.
 [[nodiscard]] PrintedPage framed_page(const Paper& paper,
-                                      const PageFrame& frame,
+                                      const PrintFrame& frame,
                                       int page,
                                       int pages);
 
@@ -40,7 +40,7 @@ struct PageFrame {
 [[nodiscard]] std::string page_that_holds(double width_m,
                                           double height_m,
                                           const Paper& paper,
-                                          const PageFrame& frame);
+                                          const PrintFrame& frame);
 
 /// Returns "80 mm", with a resolution of a micrometre.
 [[nodiscard]] std::string mm_text(double length_m);

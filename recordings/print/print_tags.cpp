@@ -27,7 +27,7 @@ constexpr const char* kHowToFold =
     "glue "
     "the flaps under the base. Flat tags: cut at the corner marks, leave the white edge.";
 
-PageFrame frame_of(const TagSheet& sheet, const std::vector<PrintPiece>& pieces) {
+PrintFrame frame_of(const TagSheet& sheet, const std::vector<PrintPiece>& pieces) {
   const auto by_size = [](const TagToPrint& a, const TagToPrint& b) {
     return a.size_m < b.size_m;
   };
@@ -43,7 +43,7 @@ PageFrame frame_of(const TagSheet& sheet, const std::vector<PrintPiece>& pieces)
       names.push_back(tag.family.name);
     }
   }
-  PageFrame frame;
+  PrintFrame frame;
   for (const std::string& name : names) {
     frame.title.append(frame.title.empty() ? "" : " + ").append(name);
   }
@@ -63,7 +63,7 @@ PageFrame frame_of(const TagSheet& sheet, const std::vector<PrintPiece>& pieces)
 }
 
 /// Returns the area without the space for cut marks at the edges.
-PrintBox room_for_pieces(const Paper& paper, const PageFrame& frame) {
+PrintBox room_for_pieces(const Paper& paper, const PrintFrame& frame) {
   const PrintBox space = space_for_patterns(paper, frame);
   return {space.left + kCutMark_m,
           space.top + kCutMark_m,
@@ -100,7 +100,7 @@ class Sheet {
  private:
   const TagSheet& sheet_;
   std::vector<PrintPiece> pieces_;
-  PageFrame frame_;
+  PrintFrame frame_;
   std::vector<PieceSize> sizes_;
 };
 

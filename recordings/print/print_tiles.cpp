@@ -43,7 +43,7 @@ struct Tiling {
 
 std::optional<Tiling> tiling_on(const Paper& paper,
                                 const BoardPicture& board,
-                                const PageFrame& frame) {
+                                const PrintFrame& frame) {
   const PrintBox space = space_for_patterns(paper, frame);
   Tiling tiling{paper,
                 {space.left + kBoardBand_m,
@@ -203,7 +203,7 @@ void Tile::draw_origin(PrintedPage& page) const {
 }
 
 Error too_large(const BoardPicture& board,
-                const PageFrame& frame,
+                const PrintFrame& frame,
                 const BoardPages& pages,
                 const char* other) {
   const PrintBox space = space_for_patterns(pages.paper, frame);
@@ -223,7 +223,7 @@ Error too_large(const BoardPicture& board,
 }  // namespace
 
 Result<PrintedDocument> tile(const BoardPicture& board,
-                             const PageFrame& frame,
+                             const PrintFrame& frame,
                              const BoardPages& pages) {
   const Status usable = check_paper(pages.paper);
   if (!usable) return usable.error();
@@ -234,7 +234,7 @@ Result<PrintedDocument> tile(const BoardPicture& board,
   if (pages.one_page && best->pages() > 1) {
     return too_large(board, frame, pages, ", or leave --one-page out to glue several");
   }
-  PageFrame tiled = frame;
+  PrintFrame tiled = frame;
   if (best->pages() > 1) {
     tiled.how_to =
         "Cut each page at its corner marks, then glue it onto its left and upper "

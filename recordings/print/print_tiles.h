@@ -43,7 +43,7 @@ inline constexpr double kBoardBand_m = 0.0075;
 /// Lays out a board on one page, or on several. Errors: those of lay_out_board() about
 /// paper.
 [[nodiscard]] Result<PrintedDocument> tile(const BoardPicture& board,
-                                           const PageFrame& frame,
+                                           const PrintFrame& frame,
                                            const BoardPages& pages);
 
 }  // namespace marey::recordings

@@ -70,7 +70,7 @@ class TPose {
  public:
   TPose(const Skeleton& skeleton,
         const FoundBones& found,
-        const Evidence& evidence,
+        const NeutralEvidence& evidence,
         double foot_pitch_rad)
       : tree_(skeleton),
         found_(found),
@@ -378,7 +378,7 @@ class TPose {
 
   SkeletonTree tree_;
   const FoundBones& found_;
-  const Evidence& evidence_;
+  const NeutralEvidence& evidence_;
   double foot_pitch_;
   std::vector<RigidTransform> zero_;
   std::vector<glm::dquat> t_pose_;
@@ -389,7 +389,7 @@ class TPose {
 
 std::vector<glm::dquat> t_pose_of_bones(const Skeleton& skeleton,
                                         const FoundBones& found,
-                                        const Evidence& evidence,
+                                        const NeutralEvidence& evidence,
                                         double foot_pitch_rad) {
   return TPose(skeleton, found, evidence, foot_pitch_rad).make();
 }

@@ -16,7 +16,7 @@ namespace marey::retarget {
 /// axes. `foot_pitch_rad` as in NamedNeutral.
 [[nodiscard]] std::vector<glm::dquat> t_pose_of_bones(const Skeleton& skeleton,
                                                       const FoundBones& found,
-                                                      const Evidence& evidence,
+                                                      const NeutralEvidence& evidence,
                                                       double foot_pitch_rad);
 
 }  // namespace marey::retarget

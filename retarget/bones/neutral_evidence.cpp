@@ -18,7 +18,7 @@ namespace {
 
 void add_limbs(const FoundBones& found,
                std::span<const RigidTransform> world,
-               Evidence& evidence) {
+               NeutralEvidence& evidence) {
   for (std::size_t i = 0; i < 4; ++i) {
     const HumanLimb& limb = human_limbs()[i];
     const auto upper = found.joint(limb.upper);
@@ -35,8 +35,8 @@ void add_limbs(const FoundBones& found,
 
 }  // namespace
 
-Evidence evidence_of(const Motion& motion, const FoundBones& found) {
-  Evidence evidence;
+NeutralEvidence evidence_of(const Motion& motion, const FoundBones& found) {
+  NeutralEvidence evidence;
   const std::size_t count = motion.skeleton.joints.size();
   evidence.joint_from_parent.assign(count, glm::dmat3(0.0));
   std::vector<RigidTransform> world(count);

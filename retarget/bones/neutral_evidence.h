@@ -14,7 +14,7 @@
 namespace marey::retarget {
 
 /// Sums over the frames of a motion that determine the rest pose of the bones.
-struct Evidence {
+struct NeutralEvidence {
   /// Sums of joint_from_parent rotations.
   std::vector<glm::dmat3> joint_from_parent;
   /// For the upper and the lower bone of each limb: the hinge axis of the elbow or knee,
@@ -25,6 +25,6 @@ struct Evidence {
 
 /// Computes the sums in one pass over the frames.
 /// Precondition: hips, thighs and feet are found.
-[[nodiscard]] Evidence evidence_of(const Motion& motion, const FoundBones& found);
+[[nodiscard]] NeutralEvidence evidence_of(const Motion& motion, const FoundBones& found);
 
 }  // namespace marey::retarget

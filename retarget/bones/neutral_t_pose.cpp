@@ -63,7 +63,7 @@ void rest_as_t_pose(Motion& motion,
                     const glm::dvec3& up,
                     const NamedNeutral* known) {
   Skeleton& skeleton = motion.skeleton;
-  const Evidence evidence = evidence_of(motion, found);
+  const NeutralEvidence evidence = evidence_of(motion, found);
   const double pitch = known != nullptr ? known->foot_pitch_rad : kAverageFootPitch;
   std::vector<glm::dquat> rest = t_pose_of_bones(skeleton, found, evidence, pitch);
   if (known != nullptr) lean(*known, skeleton, rest);

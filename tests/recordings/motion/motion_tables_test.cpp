@@ -93,7 +93,7 @@ TEST(SegmentsCsv, GivesBackItsRows) {
   const auto rows = read_segments_csv(folder / "segments.csv");
   ASSERT_TRUE(rows) << rows.error().message();
   ASSERT_EQ(rows->size(), 4U);
-  const SegmentRow& row = (*rows)[2];
+  const SegmentTableRow& row = (*rows)[2];
   EXPECT_EQ(row.segment, "hips");
   EXPECT_EQ(row.source, Source::kInferred);
   EXPECT_EQ(row.world_from_segment.rotation, glm::dquat(0.540302, 0.0, 0.841471, 0.0));
