@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A live session in a browser: what is seen, dragged, asked for, lost and found again.
+// Tests of the page with a live session: drawing, dragging, commands, reconnection.
 
 import assert from 'node:assert/strict';
 import {existsSync} from 'node:fs';
@@ -42,7 +42,7 @@ async function until(what, holds, limit_ms = 20000) {
 const said = (type) => server.heard.filter((words) => words.type === type);
 const text = (selector) => page.locator(selector).textContent();
 
-/** How far the nodes of the avatar are from the joints that drive them. [m] */
+/** The largest distance of the avatar's nodes from the joints that drive them. [m] */
 const offSkin = () => page.evaluate(() => {
   const body = window.mareyPage.stage.bodies[1];
   if (!body.dressed || !body.present) return null;
@@ -71,7 +71,7 @@ test('bodies are drawn, the skin follows the skeleton, nothing leaves the server
 });
 
 test('a dragged hand goes where the pointer goes, and the server hears of it', async () => {
-  await page.waitForTimeout(600); // The eye has settled.
+  await page.waitForTimeout(600); // The camera of the view has come to rest.
   const at = (id) => page.evaluate((name) => {
     const {left, top} = document.querySelector('.stage canvas').getBoundingClientRect();
     const [x, y] = window.mareyPage.stage.pixelOfHandle(name);
