@@ -76,7 +76,7 @@ test('keys step, jump and play', async () => {
   assert.equal(await time(), reached, 'playback is paused');
 });
 
-test('the timeline scrubs, zooms and says where one is', async () => {
+test('the timeline scrubs, zooms and shows the position', async () => {
   const box = await page.locator('.strips').boundingBox();
   await page.mouse.move(box.x + box.width / 2, box.y + 25);
   await page.mouse.down();
@@ -145,6 +145,6 @@ test('a dragged constraint shows that frame adapted, until one goes elsewhere', 
     Math.abs(window.mareyPage.stage.bodies[0].pose.p_in_world[1] - was) < 1e-6, before_m);
 });
 
-test('all of it without a complaint or a request elsewhere', () => {
+test('no errors and no requests to other servers', () => {
   assert.deepEqual(opened.troubles, []);
 });

@@ -44,7 +44,7 @@ async function serve(...words) {
       return address;
     }
   }
-  throw new Error('marey said no address');
+  throw new Error('marey printed no address');
 }
 
 async function until(what, holds, limit_ms = 25000) {
@@ -86,7 +86,7 @@ const playback = (page) => page.evaluate(() => {
 const dressed = (page, bodies) => page.waitForFunction((many) =>
   window.mareyPage.stage.bodies.filter((body) => body.dressed).length === many, bodies);
 
-test('results: from the report to the moment, played, scrubbed, dragged, turned to another trial',
+test('results: opened from the report, played, scrubbed, dragged; another trial is opened',
   async () => {
     const address = await serve('view', folder);
     const bodies = readdirSync(join(folder, 'walk')).filter((name) => name.endsWith('.glb'));
@@ -144,7 +144,7 @@ test('results: from the report to the moment, played, scrubbed, dragged, turned 
     await close();
   });
 
-test('live: who walks is seen with its weight and steps, its avatar dragged and let go',
+test('live: a walking body shows its balance and steps; its avatar is dragged and released',
   {timeout: 60000}, async () => {
   const body = join(folder, 'walk', readdirSync(join(folder, 'walk'))
     .find((name) => name.endsWith('.glb') && name !== 'motion.glb') ?? 'motion.glb');

@@ -17,7 +17,7 @@ if (why) {
 }
 for (const name of ['MAREY_PROGRAM', 'MAREY_RESULTS', 'MAREY_SESSION']) {
   if (!existsSync(process.env[name] ?? '')) {
-    console.error(`${name} names nothing that is there`);
+    console.error(`${name} is not an existing file or folder`);
     process.exit(1);
   }
 }

@@ -62,7 +62,7 @@ export class PageSocket {
       length = data.readUInt16BE(2);
       at = 4;
     } else if (length === 127) {
-      throw new Error('the page says more than it may');
+      throw new Error('the message of the page is too long');
     }
     if (data.length < at + 4 + length) return null;
     const mask = data.subarray(at, at + 4);
