@@ -29,7 +29,7 @@ export function pillOf(connected: boolean, live: boolean,
   if (!status) return {state: 'waiting', words: WORDS.waiting, why: ''};
   if (silent_ms > STATUS_SILENCE_MS) {
     return {state: 'silent', words: 'marey is silent',
-      why: 'marey has sent no status for more than a second: the computer may be overloaded'};
+      why: 'marey has sent no status for more than a second: the computer may be too busy'};
   }
   const {subject, warnings} = status;
   return {state: subject, words: WORDS[subject] ?? subject, why: (warnings ?? []).join('\n')};
