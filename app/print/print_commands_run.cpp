@@ -11,7 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/convert/print_commands.h"
+#include "app/print/print_commands.h"
 #include "app/shell/option_checks.h"
 #include "capture/tags/tag_pattern.h"
 #include "core/base/extension.h"

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/printable.h"
-#include "recordings/text/atomic_file.h"
+#include "recordings/base/atomic_file.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/program/run_program.h"
 #include "tests/support/program/scratch_folder.h"
