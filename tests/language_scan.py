@@ -93,8 +93,8 @@ def sentences(text):
 
 
 def comment_sentences(text, marks):
-    """Comments of C++, TypeScript or JavaScript: runs of lines that begin with // or ///,
-    and what follows code on its line."""
+    """Comments that `marks` finds, on lines of their own or behind code; adjacent lines are
+    one text."""
     block, found = [], []
     for line in text.splitlines():
         match = marks.search(line)
@@ -113,7 +113,8 @@ def comment_sentences(text, marks):
 
 
 LINE_COMMENT = re.compile(r"(?:^|\s)//[/!<]*\s?(.*)$")
-SCRIPT_COMMENT = re.compile(r"(?:^|\s)(?://+|/?\*{1,2}(?!/))\s?(.*?)(?:\*/)?$")
+SCRIPT_COMMENT = re.compile(
+    r"(?:(?:^|\s)(?://+|/\*{1,2}(?!/))|^\s*\*{1,2}(?!/))\s?(.*?)(?:\*/)?$")
 STRING = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 
 

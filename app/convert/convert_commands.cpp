@@ -15,7 +15,6 @@
 #include "app/motion/raw_body.h"
 #include "app/shell/option_checks.h"
 #include "core/base/extension.h"
-#include "core/base/input_file.h"
 #include "recordings/markers/marker_file.h"
 
 namespace marey::app {
@@ -76,10 +75,6 @@ Exit run_convert(const ConvertArguments& arguments, Console& console) {
     return console.fail(bad_input(arguments.out.string(),
                                   "that is the file to be converted",
                                   "give the result another name"));
-  }
-  if (const Status ok = check_input_file(arguments.in); !ok) {
-    const auto folder = no_conversion(arguments.in);
-    return console.fail(folder ? *folder : ok.error());
   }
   if (const auto error = no_conversion(arguments.in)) return console.fail(*error);
   if (const Status ok = check_out_file(arguments.out); !ok) {

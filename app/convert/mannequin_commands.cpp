@@ -16,6 +16,7 @@ Exit run_mannequin(const recordings::MannequinOptions& options,
     return console.fail(bad_input(
         out.string(), "a mannequin can only be written as GLB", "name the result .glb"));
   }
+  if (const Status ok = check_out_file(out); !ok) return console.fail(ok.error());
   const Proportions proportions = recordings::mannequin_proportions(options);
   const Status ok =
       recordings::write_character(out,

@@ -223,6 +223,9 @@ Exit run_listen(const ListenArguments& arguments, Console& console) {
                                   "--avatar and --vmc go together",
                                   "give both the body and the receiver of its packets"));
   }
+  if (const Status ok = check_out_file(arguments.out); !ok) {
+    return console.fail(ok.error());
+  }
   Result<MotionFormat> format = MotionFormat::kBvh;
   if (!arguments.out.empty()) format = format_of(arguments.out);
   if (!format) return console.fail(format.error());

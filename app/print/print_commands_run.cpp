@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/print/print_commands.h"
+#include "app/shell/option_checks.h"
 #include "capture/tags/tag_pattern.h"
 #include "core/base/extension.h"
 #include "recordings/print/pdf_write.h"
@@ -123,6 +124,7 @@ Exit write(const PrintArguments& args,
     return console.fail(
         bad_input(args.out.string(), "pages can only be written as PDF", "name it .pdf"));
   }
+  if (const Status ok = check_out_file(args.out); !ok) return console.fail(ok.error());
   const Status written = recordings::write_pdf(args.out, *document);
   if (!written) return console.fail(written.error());
   const std::size_t pages = document->pages.size();

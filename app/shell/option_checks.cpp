@@ -54,7 +54,8 @@ std::string number_problem(const std::string& word) {
 }
 
 std::string whole_number_problem(const std::string& word) {
-  return as_whole_number(word) ? "" : not_that("a whole number", word);
+  if (!as_whole_number(word)) return not_that("a whole number", word);
+  return number_problem(word);
 }
 
 bool has_type(const CLI::Option& option, std::string_view type) {

@@ -87,13 +87,13 @@ std::string bare_name(const std::string& option) {
 }
 
 Error without_command(const CLI::App& app, const std::vector<std::string>& left) {
-  const auto word = std::ranges::find_if_not(left, is_option);
-  if (word != left.end()) {
-    return bad_usage(
-        *word,
-        "there is no such command",
-        next_for(
-            *word, names_of_commands(app), "", "marey --help describes the commands"));
+  if (!left.empty() && !is_option(left.front())) {
+    return bad_usage(left.front(),
+                     "there is no such command",
+                     next_for(left.front(),
+                              names_of_commands(app),
+                              "",
+                              "marey --help describes the commands"));
   }
   if (!left.empty()) {
     std::vector<std::string> known;

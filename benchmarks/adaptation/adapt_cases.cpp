@@ -39,7 +39,7 @@ std::istream& operator>>(std::istream& in, glm::dvec3& v) {
 
 Error broken(const std::filesystem::path& file) {
   return bad_input(file.string(),
-                   "missing, or not as long as its first number says",
+                   "missing, or its length differs from its first number",
                    "give the folder of model.txt and targets.txt");
 }
 

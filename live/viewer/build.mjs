@@ -3,7 +3,7 @@
 
 // npm run build: bundles src/ into dist/ (or the folder that MAREY_PAGE names). served/ has the
 // page that marey serves; reports/ has the shell, style and script of each kind of report, into
-// which marey writes its data. With --watch it goes on.
+// which marey writes its data. With --watch it rebuilds after each change.
 import {copyFile, mkdir, readFile, writeFile} from 'node:fs/promises';
 import {fileURLToPath} from 'node:url';
 import esbuild from 'esbuild';
@@ -16,8 +16,8 @@ const sections = {
   report: {motion: 'Motion', pictures: 'Pictures', reprojection: 'Reprojection',
     tags: 'Tags and gaps', joints: 'Joint centres', subject: 'Subject', cameras: 'Cameras',
     avatars: 'Avatars and files', time: 'Time'},
-  calibration: {layout: 'Where the cameras stand', errors: 'Expected error',
-    pictures: 'What each camera saw', together: 'Views in common', checks: 'Checks',
+  calibration: {layout: 'Camera positions', errors: 'Expected error',
+    pictures: 'Views of each camera', together: 'Views in common', checks: 'Checks',
     parameters: 'Parameters', outliers: 'Outliers'},
   markers: {samples: 'Samples', residuals: 'Distance from the body', curves: 'Before and after',
     stills: 'Stills', joints: 'Joint centres', labels: 'Labels'},
@@ -34,7 +34,7 @@ async function bundle(names, format, folder) {
     format,
     target: ['chrome110', 'firefox115', 'safari16.4'],
     legalComments: 'inline',
-    // uPlot's own notice is not marked as one to keep.
+    // uPlot's licence notice is not marked as a legal comment, so it is added here.
     banner: {js: '/*! Contains uPlot, Copyright (c) 2025 Leon Sorokin, MIT License. */'},
     logLevel: 'warning',
   };

@@ -3,9 +3,10 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # fetch_guest_kernel.sh FOLDER: Debian's kernel for the emulated machine, with the modules
-# that make cameras: vivid, which it ships, and v4l2loopback, which is built here. Nothing is
-# installed. FOLDER then has vmlinuz, modules/*.ko and modules/order; it is left alone when it
-# has them. Needs apt-get with package lists, kmod, make and the gcc of Debian's kernel.
+# that simulate cameras: vivid, which it ships, and v4l2loopback, which is built here.
+# Nothing is installed. FOLDER then has vmlinuz, modules/*.ko and modules/order; it is left
+# alone when it has them. Needs apt-get with package lists, kmod, make and the gcc of
+# Debian's kernel.
 set -euo pipefail
 
 mkdir -p "$1"

@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # run_v4l2_guest.sh PROGRAM KERNEL WORK: runs the static PROGRAM (v4l2_guest.cpp) in an
-# emulated machine whose kernel makes cameras, and says what it said. KERNEL is a folder of
-# fetch_guest_kernel.sh, which is called when it is empty; WORK is scratch. Says "skipped:"
-# when there is no emulator or no kernel.
+# emulated machine whose kernel simulates cameras, and prints its output. KERNEL is a folder
+# of fetch_guest_kernel.sh, which is called when it is empty; WORK is scratch. Prints
+# "skipped:" when the emulator or the kernel is missing.
 set -euo pipefail
 
 readonly program=$1 kernel=$2 work=$3

@@ -133,10 +133,10 @@ void check_settings() {
   if (!check(device.has_value(), "720p MJPG is answered")) return;
   std::string all;
   for (const auto& sentence : device->settings().differences) all += sentence + "; ";
-  check(has(all, "asked for MJPG, got YUYV"), "a substituted format is said", all);
-  check(has(all, "asked for 30 frames/s, got"), "a lower rate is said");
+  check(has(all, "asked for MJPG, got YUYV"), "a substituted format is reported", all);
+  check(has(all, "asked for 30 frames/s, got"), "a lower rate is reported");
   check(has(all, "exposure of 4 ms, and the camera has no such control"),
-        "a control that is missing is said");
+        "a missing control is reported");
   check(device->settings().gain == 200, "gain is set and read back");
   check(device->settings().monotonic_clock, "the clock is monotonic");
 }
@@ -214,7 +214,7 @@ void check_wrong_devices() {
     auto device = V4l2Device::open(small(kFirst));
     const std::string busy = refusal(small(kFirst));
     check(has(busy, "another program is using it"), "a busy device", busy);
-    check(take(*device, 30).gaps == 0, "and whoever has it is not disturbed");
+    check(take(*device, 30).gaps == 0, "a busy device keeps streaming to its user");
   }
   if (::seteuid(1000) == 0) {
     const std::string forbidden = refusal(small(kFirst));

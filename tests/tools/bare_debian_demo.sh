@@ -4,12 +4,12 @@
 #
 # bare_debian_demo.sh [FOLDER]
 #
-# Runs `./run demo` in a bare Debian 12 and prints what it took: makes a minimal system in
-# FOLDER (build/bare-debian) with debootstrap, with the package sources and the npm
-# registry of this machine, copies the commit HEAD to its /marey, and calls ./run demo there. The
+# Runs `./run demo` in a bare Debian 12 and prints the time: makes a minimal system in
+# FOLDER (build/bare-debian) with debootstrap, with the package sources and the npm registry
+# of this machine, copies the commit HEAD to its /marey, and calls ./run demo there. The
 # time includes the installation of packages. Bar: 10 minutes of wall time on two idle
-# cores. Needs root, the network, some 4 GB of disk, and the package debootstrap.
-# The system is removed at the end, unless KEEP=true.
+# cores. Needs root, the network, some 4 GB of disk, and the package debootstrap. The system
+# is removed at the end, unless KEEP=true.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
 

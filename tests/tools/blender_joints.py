@@ -4,8 +4,8 @@
 # blender -b --factory-startup --python-exit-code 1 --python blender_joints.py -- \
 #     MOTION.(bvh|glb) [--unit METRES] [--compare JOINTS.csv] [--out OUT.csv]
 #
-# Imports a motion with Blender and tells where Blender puts the joints, frame by frame:
-# `frame,time,joint,x,y,z,sigma` in metres, Y up, as marey writes joints.csv. With
+# Imports a motion with Blender and prints the joint places that Blender computes for each
+# frame: `frame,time,joint,x,y,z,sigma` in metres, Y up, as marey writes joints.csv. With
 # --compare, prints the largest distance to such a file; exit 1 above 0.1 mm, or when a BVH
 # has another rate.
 import argparse
@@ -30,7 +30,7 @@ bvh_importer.open = lambda path, mode="r", *rest, **options: builtins.open(
 def parse_arguments():
     parser = argparse.ArgumentParser(prog="blender_joints.py")
     parser.add_argument("motion")
-    parser.add_argument("--unit", type=float, default=0.01, help="of a BVH, in metres")
+    parser.add_argument("--unit", type=float, default=0.01, help="metres per unit of a BVH")
     parser.add_argument("--compare")
     parser.add_argument("--out")
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
@@ -55,7 +55,7 @@ def import_motion(path, unit):
 
 
 def same_rate(path):
-    """Whether Blender took a BVH's Frame Time for the rate of these joint places."""
+    """Returns whether Blender's frame rate of a BVH is the rate of these joint places."""
     with builtins.open(path, encoding="utf-8") as file:
         times = sorted({float(row["time"]) for row in csv.DictReader(file)})
     if len(times) < 2:

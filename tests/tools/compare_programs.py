@@ -61,7 +61,7 @@ def main():
     times = {}
     with tempfile.TemporaryDirectory() as scratch:
         for number in range(arguments.rounds):
-            # Each begins every other round.
+            # The two programs take turns in running first.
             order = ["old", "new"] if number % 2 == 0 else ["new", "old"]
             for which in order:
                 out = pathlib.Path(scratch) / f"{number}-{which}"

@@ -68,7 +68,7 @@ def add_label(label, camera_rotation, letter_m):
 def turn_camera(page):
     azimuth = math.radians(page["azimuth_deg"])
     elevation = math.radians(page["elevation_deg"])
-    # Towards the viewer, as the file has its axes.
+    # Direction to the viewer, in the axes of the file.
     back = in_blender(
         (
             math.cos(elevation) * math.sin(azimuth),
@@ -108,7 +108,7 @@ def frame(camera, back, objects, width):
 
 
 def leave_out_notes(render):
-    """Of when and where: the same scene, the same bytes."""
+    """Leaves out dates and paths, so that the same scene gives the same bytes."""
     for name in dir(render):
         if name.startswith("use_stamp") and isinstance(getattr(render, name), bool):
             setattr(render, name, False)
@@ -122,7 +122,7 @@ def shade():
     scene.render.image_settings.color_mode = "RGB"
     scene.render.image_settings.compression = 100
     scene.render.film_transparent = False
-    scene.render.dither_intensity = 0  # Noise is what a PNG cannot pack.
+    scene.render.dither_intensity = 0  # PNG cannot compress noise.
     scene.view_settings.view_transform = "Standard"
     scene.display.render_aa = "8"
     shading = scene.display.shading

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the judges that run in node share: tables of joint places, and how far a scene's
-// bones are from them.
+// Shared by the checks that run in node: tables of joint places, and the distances of a
+// scene's bones from them.
 import { readFile } from 'node:fs/promises';
 import { Vector3 } from 'three';
 
@@ -18,8 +18,8 @@ export async function readPlaces(path) {
   return frames;
 }
 
-/// The largest distance of `find(joint)`'s nodes from where `frames` says they are. [mm]
-/// `pose(frame)` brings the scene there; `unit` is the scene's, in metres.
+/// Returns the largest distance of the nodes `find(joint)` from their places in `frames`. [mm]
+/// `pose(frame)` poses the scene; `unit` is the scene's unit in metres.
 export function largestDistance(frames, find, pose, unit = 1) {
   let largest = 0;
   let places = 0;
@@ -53,7 +53,7 @@ export function keyTimes(clip, frames) {
   return times;
 }
 
-/// The parts of a GLB. Meshes and what they look like are left out: node has no pictures.
+/// The parts of a GLB. Leaves out meshes and materials, as node cannot decode pictures.
 export async function readGlb(path) {
   const bytes = await readFile(path);
   const jsonBytes = bytes.readUInt32LE(12);

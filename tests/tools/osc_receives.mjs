@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // node osc_receives.mjs SEND_VMC COUNT: has SEND_VMC send COUNT frames and reads them with
-// npm's osc. Exit 1 when one is lost or not as it must be; 77 without osc.
+// npm's osc. Exit 1 when one is lost or incorrect; 77 without osc.
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
 
@@ -27,7 +27,7 @@ port.open();
 await once(port, 'ready');
 const sender = spawn(program, [port.socket.address().port, count], { stdio: 'inherit' });
 const [code] = await once(sender, 'exit');
-// The last ones have left the kernel, but not yet node's own queue.
+// The last packets have left the kernel's queue, but not node's.
 await new Promise((resolve) => setTimeout(resolve, 100));
 port.close();
 process.exit(code === 0 ? judge.verdict('osc', Number(count)) : 1);

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// node oscdump_receives.mjs SEND_VMC COUNT: has SEND_VMC send COUNT frames and reads what
-// liblo's oscdump makes of them. Exit 1 when one is lost or not as it must be; 77 without
-// oscdump.
+// node oscdump_receives.mjs SEND_VMC COUNT: has SEND_VMC send COUNT frames and parses the
+// output of liblo's oscdump. Exit 1 when one is lost or incorrect; 77 without oscdump.
 import { spawn, spawnSync } from 'node:child_process';
 import dgram from 'node:dgram';
 import { once } from 'node:events';

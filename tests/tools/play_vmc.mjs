@@ -36,8 +36,7 @@ async function readFrames(path) {
   return frames;
 }
 
-/// Makes a VRM of a body of which `bones` says which node is which bone, and leaves out of
-/// one what has to do with its look.
+/// Makes a VRM of a body; `bones` maps its nodes to bones. Leaves out its look.
 function asVrm(glb, bones) {
   const { json } = glb;
   delete json.animations;
@@ -93,11 +92,12 @@ const pose = (frame) => {
     const node = nodeOf(unity);
     if (!node) throw new Error(`the avatar has no ${unity}`);
     const position = place(numbers.slice(0, 3));
-    // Wild motions turn what stands between bones, too: only the first frame is at rest.
+    // Fast motions also turn the nodes between bones, so only the first frame is compared
+    // at rest.
     if (unity !== 'Hips' && frame === 0) {
       farthestOffset = Math.max(farthestOffset, 1000 * position.distanceTo(node.position));
     }
-    // The normalised rig has lengths of its own, and moves nothing but the hips.
+    // The normalised rig has its own bone lengths, and translates the hips only.
     if (rest === 'raw' || unity === 'Hips') node.position.copy(position);
     node.quaternion.copy(turn(numbers.slice(3)));
   }

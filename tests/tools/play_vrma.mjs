@@ -21,8 +21,7 @@ try {
   process.exit(77);
 }
 
-/// Makes a VRM of a body whose nodes are named like VRM's bones, and leaves out of one
-/// what has to do with its look.
+/// Makes a VRM of a body whose nodes are named like VRM's bones. Leaves out its look.
 function asVrm(glb) {
   const { json } = glb;
   delete json.animations;

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # cmake -D SCRIPT=... -D MOTION=... -D JOINTS=... [-D UNIT=...] -P run_blender.cmake
-# Compares the joint places that Blender and marey compute for a motion. Says `skipped:`
-# without Blender.
+# Compares the joint places that Blender and marey compute for a motion. Prints `skipped:`
+# if Blender is missing.
 cmake_minimum_required(VERSION 3.25)
 if(NOT DEFINED UNIT)
   set(UNIT 0.01)

@@ -5,7 +5,7 @@
 # runtime_closure.sh PROGRAM [--list]
 #
 # Prints the installed size of all Debian packages that PROGRAM needs to run, from an empty
-# root: the packages of its libraries, and what these depend on, without recommendations.
+# root: the packages of its libraries and their dependencies, without recommendations.
 # --list: also each package with its size, largest first. Needs apt's package lists.
 set -euo pipefail
 export LC_ALL=C
@@ -14,7 +14,7 @@ export LC_ALL=C
 program=$1
 
 mapfile -t files < <(ldd "$program" | awk '$3 ~ /^\// { print $3 }' | xargs readlink -f)
-# Debian 12 lists the files of /lib without /usr, so both names are asked for.
+# Debian 12 lists the files of /lib without /usr, so the query contains both names.
 mapfile -t packages < <(dpkg-query -S "${files[@]}" "${files[@]#/usr}" 2>/dev/null |
   sed 's/[:,].*//' | sort -u)
 # An empty list of installed packages: apt plans the whole root.

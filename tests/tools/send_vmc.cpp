@@ -63,7 +63,7 @@ bool wait_for(int port, long bytes) {
     if (waiting && *waiting <= bytes) return true;
     std::this_thread::sleep_for(1ms);
   }
-  std::cerr << "nobody reads what comes to port " << port << "\n";
+  std::cerr << "no program reads from port " << port << "\n";
   return false;
 }
 

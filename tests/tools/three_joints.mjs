@@ -40,7 +40,7 @@ const action = mixer.clipAction(clip);
 action.setLoop(three.LoopOnce);
 action.clampWhenFinished = true;
 action.play();
-// Three takes what a path cannot hold out of names.
+// three.js removes the characters from names that a path cannot contain.
 const named = (joint) => root.getObjectByName(three.PropertyBinding.sanitizeNodeName(joint));
 const pose = (frame) => {
   action.time = times[frame];

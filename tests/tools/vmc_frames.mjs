@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a frame of VMC must be, whoever decoded it: messages are { address, args }.
+// Checks decoded frames of VMC, independently of the decoder. Messages are objects
+// { address, args }.
 const REQUIRED = [
   'Hips', 'Spine', 'Head',
   ...['Left', 'Right'].flatMap((side) =>
     ['UpperLeg', 'LowerLeg', 'Foot', 'UpperArm', 'LowerArm', 'Hand'].map((b) => side + b)),
 ];
 
-/// Follows the frames of one sender. Throws at the first that is not as it must be.
+/// Follows the frames of one sender. Throws at the first incorrect message.
 export class FrameJudge {
   frames = 0;
   bones = 0;

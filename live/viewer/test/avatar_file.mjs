@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A body of tubes around the joints of walker.mjs, as a binary glTF with a skin: an avatar
-// for machines that have no other.
+// A body of tubes around the joints of walker.mjs, as a binary glTF with a skin: the avatar
+// of tests on machines without other avatars.
 
 import {JOINTS} from './walker.mjs';
 

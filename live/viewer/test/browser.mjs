@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A browser without a screen, drawing in software, and what went wrong in it.
+// A headless browser that renders in software, and its errors.
 
 import {existsSync} from 'node:fs';
 import {missingPackages, pageFolder} from './installed.mjs';
 
 const CHROMIUM = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
-/** Why there can be no browser, or no page for it; null when there can. `built`: the page
+/** The reason why a browser or its page is missing; null if both exist. `built`: the page
  *  is wanted from its folder. */
 export function missing({built = true} = {}) {
   const packages = missingPackages();
@@ -41,7 +41,7 @@ export async function openPage(browser, address, options = {}) {
     }
   });
   await page.goto(address);
-  // Something came and was drawn.
+  // The page received data and drew it.
   await page.waitForFunction(() => window.mareyPage?.stage.bodies.some((body) => body.present));
   return {page, troubles, close: () => context.close()};
 }

@@ -98,7 +98,7 @@ test('a frame of another scene is refused', () => {
   assert.equal(decodeFrame(view, 0, new SceneFrame([{joints: new Array(3)}, two[1]])), -1);
 });
 
-test('a polygon of more corners than are kept does not shift what comes after it', () => {
+test('a polygon with too many corners does not shift the data after it', () => {
   const corners = 200;
   const bytes = new ArrayBuffer(24 + 4 + 16 + 8 * corners);
   const view = new DataView(bytes);
@@ -184,7 +184,7 @@ test('a thumbnail is read with its tags', () => {
   assert.equal(decodeThumbnail(bytes.slice(0, 40)), null);
 });
 
-test('texts of another version, kind or form are told apart', () => {
+test('texts of another version, kind or form are rejected with a reason', () => {
   const why = (text: string): string => {
     const words = readServerWords(text);
     return words.type === 'bad' ? words.why : '';

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A recording in a browser: played, scrubbed, stepped through, adapted.
+// Tests of the page with a recording: playing, scrubbing, stepping, adapting.
 
 import assert from 'node:assert/strict';
 import {after, before, test} from 'node:test';
@@ -9,7 +9,7 @@ import {openBrowser, openPage} from './browser.mjs';
 import {MockServer} from './mock_server.mjs';
 
 const FRAMES = 300;
-const FRAME_RATE_HZ = 30; // The mock server's.
+const FRAME_RATE_HZ = 30; // As in the mock server.
 
 let browser;
 let server;
@@ -29,9 +29,9 @@ after(async () => {
 });
 
 const time = () => page.evaluate(() => window.mareyPage.reel.playback.time);
-/** Asserts that playback advances at `speed` times its rate, over 30 frames of the screen as
- *  long as they really last: the page counts each as 0.25 s at most. The error may be one
- *  frame of the screen, since the page and this test measure at different moments of it. */
+/** Asserts that playback advances at `speed` times the recorded rate over 30 frames of the
+ *  screen, measured by their duration; the page counts each as 0.25 s at most. The error may
+ *  be one frame of the screen, as the page and this test measure at different times in it. */
 async function assert_plays_at(speed) {
   const {moved, played_s, longest_s} = await page.evaluate(async () => {
     const {playback} = window.mareyPage.reel;
@@ -76,7 +76,7 @@ test('keys step, jump and play', async () => {
   assert.equal(await time(), reached, 'playback is paused');
 });
 
-test('the timeline scrubs, zooms and says where one is', async () => {
+test('the timeline scrubs, zooms and shows the position', async () => {
   const box = await page.locator('.strips').boundingBox();
   await page.mouse.move(box.x + box.width / 2, box.y + 25);
   await page.mouse.down();
@@ -145,6 +145,6 @@ test('a dragged constraint shows that frame adapted, until one goes elsewhere', 
     Math.abs(window.mareyPage.stage.bodies[0].pose.p_in_world[1] - was) < 1e-6, before_m);
 });
 
-test('all of it without a complaint or a request elsewhere', () => {
+test('no errors and no requests to other servers', () => {
   assert.deepEqual(opened.troubles, []);
 });

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Tests of the page say "skipped:" and why where its packages were not fetched.
+// Tests of the page print "skipped:" and the reason if its packages are not installed.
 
 import {existsSync} from 'node:fs';
 import {fileURLToPath} from 'node:url';
@@ -9,11 +9,11 @@ import {fileURLToPath} from 'node:url';
 const here = fileURLToPath(new URL('..', import.meta.url));
 
 const built = process.env.MAREY_PAGE ?? `${here}dist`;
-/** Where the served page was built, and the parts of reports. */
+/** Folder of the built page and of the parts of reports. */
 export const pageFolder = `${built}/served/`;
 export const reportFolder = `${built}/reports/`;
 
-/** Why there are no packages; null when there are. */
+/** The reason why packages are missing; null if they are installed. */
 export function missingPackages() {
   return ['esbuild', 'typescript', 'three', 'playwright-core'].every((name) =>
     existsSync(`${here}node_modules/${name}`)) ? null

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A live session in a browser: what is seen, dragged, asked for, lost and found again.
+// Tests of the page with a live session: drawing, dragging, commands, reconnection.
 
 import assert from 'node:assert/strict';
 import {existsSync} from 'node:fs';
@@ -42,7 +42,7 @@ async function until(what, holds, limit_ms = 20000) {
 const said = (type) => server.heard.filter((words) => words.type === type);
 const text = (selector) => page.locator(selector).textContent();
 
-/** How far the nodes of the avatar are from the joints that drive them. [m] */
+/** The largest distance of the avatar's nodes from the joints that drive them. [m] */
 const offSkin = () => page.evaluate(() => {
   const body = window.mareyPage.stage.bodies[1];
   if (!body.dressed || !body.present) return null;
@@ -70,8 +70,8 @@ test('bodies are drawn, the skin follows the skeleton, nothing leaves the server
   assert.deepEqual(opened.troubles, []);
 });
 
-test('a dragged hand goes where the pointer goes, and the server hears of it', async () => {
-  await page.waitForTimeout(600); // The eye has settled.
+test('a dragged hand follows the pointer, and the server receives it', async () => {
+  await page.waitForTimeout(600); // The camera of the view has come to rest.
   const at = (id) => page.evaluate((name) => {
     const {left, top} = document.querySelector('.stage canvas').getBoundingClientRect();
     const [x, y] = window.mareyPage.stage.pixelOfHandle(name);
@@ -110,7 +110,7 @@ test('a dragged hand goes where the pointer goes, and the server hears of it', a
   assert.deepEqual(opened.troubles, []);
 });
 
-test('one can look back while it goes on, and return to now', async () => {
+test('the past can be shown while frames arrive, and the present again', async () => {
   await page.waitForFunction(() => {
     const {first, last} = window.mareyPage.reel.playback;
     return last - first > 40; // 0.4 of the timeline is then well beyond 5 frames.
@@ -148,7 +148,7 @@ test('calibration goes step by step, and can be cancelled', async () => {
   await until('it to be cancelled', () => said('wizard').at(-1).action === 'cancel');
 });
 
-test('constraints are switched, takes recorded, states told', async () => {
+test('constraints are switched, takes recorded, states shown', async () => {
   await page.locator('.section-constraints summary').click();
   await page.getByRole('checkbox', {name: 'gaze'}).check();
   await until('the constraint', () => said('constraint').length === 1);
@@ -251,7 +251,7 @@ test('a skin that cannot be read is reported, and the bones are shown', async ()
 
 const real = `${DATA}/avatars/makehuman/adult_male_mixamo_unity.glb`;
 test('a real avatar’s skin follows, too', {skip: !existsSync(real) &&
-  'the avatars beside the checkout are missing'}, async () => {
+  'the avatars next to the checkout are missing'}, async () => {
   await opened.close();
   await server.stop();
   server = new MockServer({avatar: realAvatar(real)});

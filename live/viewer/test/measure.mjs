@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// npm run measure [-- avatar.glb]: how many pictures a second the page draws, and how long
-// after a frame was sent it is on the screen. In software, so that no graphics card flatters.
+// npm run measure [-- avatar.glb]: measures the pictures per second that the page draws,
+// and the time from sending a frame to its display. Renders in software, so that the result
+// does not depend on a graphics card.
 
 import {loadavg} from 'node:os';
 import {missing, openBrowser, openPage} from './browser.mjs';

@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import {Messages} from '../src/panels/messages';
 
-test('what the server does not say any more is gone, what the page found is not', () => {
+test('messages that the server no longer sends disappear, those of the page stay', () => {
   const messages = new Messages();
   assert.deepEqual(messages.shown(), []);
   messages.serve(['the body is found', 'No body fits them']);
@@ -17,7 +17,7 @@ test('what the server does not say any more is gone, what the page found is not'
   assert.deepEqual(messages.shown(), ['the skin cannot be read', 'the body is found']);
 });
 
-test('of what the page found, the last is kept', () => {
+test('the last message of the page is kept', () => {
   const messages = new Messages();
   for (let i = 0; i < 20; ++i) messages.add(`trouble ${i}`);
   assert.equal(messages.shown().length, 8);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A server that speaks marey's protocol without any camera: the page is developed, tested
-// and measured against it.
+// A server with marey's protocol and without cameras, to develop, test and measure the
+// page.
 
 import {readFileSync, existsSync} from 'node:fs';
 import {createServer} from 'node:http';
@@ -15,23 +15,23 @@ import {thumbnail} from './thumbnail.mjs';
 
 const KINDS = {html: 'text/html; charset=utf-8', js: 'text/javascript', css: 'text/css',
   svg: 'image/svg+xml'};
-/** What marey sends: the page has to do with it. */
+/** The policy that marey sends; the page must work with it. */
 const POLICY = "default-src 'self'; img-src 'self' blob: data:; connect-src 'self'; " +
   "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 export class MockServer {
   /** Options: mode ('live' or 'file'), rate_hz, avatar (true, or the bytes of a file and its
-   *  skeleton: {bytes, words}), frames, clock_s() of what goes out as sent_s. */
+   *  skeleton: {bytes, words}), frames, clock_s(), which returns the values of sent_s. */
   constructor({mode = 'live', rate_hz = 30, avatar = true, frames = 300, clock_s = null} = {}) {
     Object.assign(this, {mode, rate_hz, frames});
     this.clock_s = clock_s ?? (() => performance.now() / 1000);
     this.pages = new Set();
-    /** Everything that pages said. */
+    /** All messages from pages. */
     this.heard = [];
     this.media = new Map();
     this.frame = 0;
     this.recording = null;
-    /** Why takes fail; empty: they do not. */
+    /** The reason why takes fail; empty if they succeed. */
     this.recordingTrouble = '';
     this.wizard = null;
     this.scene = mode === 'live' ? liveScene(rate_hz, avatar) : fileScene(rate_hz, frames, avatar);
@@ -101,7 +101,7 @@ export class MockServer {
   }
 
   /** Frames at their rate, status twice a second, pictures four times. Timers of a few
-   *  milliseconds: those of node are late by one. */
+   *  milliseconds, as node's timers are 1 ms late. */
   #goOn() {
     const start = performance.now();
     const send = () => {
@@ -143,7 +143,7 @@ export class MockServer {
       if (phase !== 'begin') this.#constraint(id, {p_in_world});
       return;
     }
-    // The whole body goes up by as much as the hand was raised.
+    // The whole body rises by the same distance as the hand.
     const raised = this.bodies.map((body) => ({...body, raise: 0.1}));
     page.send(encodeFrame(raised, frame, frame / this.rate_hz, 0));
   }

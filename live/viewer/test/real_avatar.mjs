@@ -16,7 +16,7 @@ function readJson(bytes) {
   return JSON.parse(bytes.toString('utf8', 20, 20 + bytes.readUInt32LE(12)));
 }
 
-/** What the node of this bone is called. */
+/** Returns the name of the node of this bone. */
 function nodeOf(nodes, json, bone) {
   const vrm = json.extensions?.VRM?.humanoid?.humanBones?.find((b) => b.bone === bone);
   if (vrm) return vrm.node;
@@ -26,8 +26,8 @@ function nodeOf(nodes, json, bone) {
   return nodes.findIndex((node) => new RegExp(`(^|:)${name}$`).test(node.name ?? ''));
 }
 
-/** Skin words and joints for the mock's scene: joints stand as the file's nodes do. Joints
- *  that the file lacks are left where they are, driving nothing. */
+/** The skin's description and joints for the mock's scene. Joints are at the places of the
+ *  file's nodes. Joints without a node in the file keep their places and drive nothing. */
 export function realAvatar(path) {
   const bytes = readFileSync(path);
   const json = readJson(bytes);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The page as marey itself serves it: `marey view` on results, from their report on, and
-// `marey live` on a trial that is played. What people do with it, done once.
+// Tests of the page that marey serves: `marey view` on results, opened from their report,
+// and `marey live` on a replayed trial. Each user action is tested once.
 
 import assert from 'node:assert/strict';
 import {spawn} from 'node:child_process';
@@ -23,7 +23,7 @@ before(async () => {
   for (const name of ['calibration.toml', 'subject.toml', 'report.html', 'report.json', 'walk']) {
     cpSync(join(MAREY_RESULTS, name), join(folder, name), {recursive: true});
   }
-  // A second trial to turn to.
+  // A second trial to switch to.
   cpSync(join(folder, 'walk'), join(folder, 'walk again'), {recursive: true});
 });
 after(async () => {
@@ -32,7 +32,7 @@ after(async () => {
   rmSync(folder, {recursive: true});
 });
 
-/** Starts marey; the address that it prints. */
+/** Starts marey and returns the address that it prints. */
 async function serve(...words) {
   const marey = spawn(MAREY_PROGRAM, [...words, '--port', '0', '--no-open'],
     {stdio: ['ignore', 'pipe', 'inherit']});
@@ -44,7 +44,7 @@ async function serve(...words) {
       return address;
     }
   }
-  throw new Error('marey said no address');
+  throw new Error('marey printed no address');
 }
 
 async function until(what, holds, limit_ms = 25000) {
@@ -55,14 +55,14 @@ async function until(what, holds, limit_ms = 25000) {
   }
 }
 
-/** Where a handle is on the page. */
+/** Returns the position of a handle on the page. */
 const handleAt = (page, id) => page.evaluate((name) => {
   const {left, top} = document.querySelector('.stage canvas').getBoundingClientRect();
   const [x, y] = window.mareyPage.stage.pixelOfHandle(name);
   return [x + left, y + top];
 }, id);
 
-/** Takes a handle along by so many pixels. */
+/** Drags a handle by this many pixels. */
 async function drag(page, id, by_x, by_y) {
   const [x, y] = await handleAt(page, id);
   await page.mouse.move(x, y);
@@ -71,7 +71,7 @@ async function drag(page, id, by_x, by_y) {
   await page.mouse.up();
 }
 
-/** Where a body's joint is drawn, without its place in the row. [m] */
+/** Returns the drawn position of a body's joint, without the body's offset in the row. [m] */
 const joint = (page, body, bone) => page.evaluate(([which, name]) => {
   const {pose, words} = window.mareyPage.stage.bodies[which];
   const i = words.joints.findIndex((one) => one.bone === name);
@@ -86,7 +86,7 @@ const playback = (page) => page.evaluate(() => {
 const dressed = (page, bodies) => page.waitForFunction((many) =>
   window.mareyPage.stage.bodies.filter((body) => body.dressed).length === many, bodies);
 
-test('results: from the report to the moment, played, scrubbed, dragged, turned to another trial',
+test('results: opened from the report, played, scrubbed, dragged; another trial is opened',
   async () => {
     const address = await serve('view', folder);
     const bodies = readdirSync(join(folder, 'walk')).filter((name) => name.endsWith('.glb'));
@@ -144,7 +144,7 @@ test('results: from the report to the moment, played, scrubbed, dragged, turned 
     await close();
   });
 
-test('live: who walks is seen with its weight and steps, its avatar dragged and let go',
+test('live: a walking body shows its balance and steps; its avatar is dragged and released',
   {timeout: 60000}, async () => {
   const body = join(folder, 'walk', readdirSync(join(folder, 'walk'))
     .find((name) => name.endsWith('.glb') && name !== 'motion.glb') ?? 'motion.glb');
@@ -154,7 +154,7 @@ test('live: who walks is seen with its weight and steps, its avatar dragged and 
   await until('a body that is tracked', async () =>
     /tracked/.test(await page.locator('.pill').textContent()));
   await dressed(page, 1);
-  // At every picture: of this walk a foot bears in some frames only.
+  // In every picture, as only some frames of this walk have a foot on the floor.
   await page.waitForFunction(() => {
     const {skeletons} = window.mareyPage.reel.shown;
     return skeletons.every(({hasBalance}) => hasBalance) &&
@@ -168,7 +168,8 @@ test('live: who walks is seen with its weight and steps, its avatar dragged and 
   }));
   const handle = () => page.evaluate(() => window.mareyPage.scene.skeletons[1] &&
     window.mareyPage.stage.handles.handles.find(({words}) => words.id === 'left hand').words);
-  // By the page's own words: a pointer that looks first may miss who walks.
+  // Uses the projection of the page, as a walking body can move away from a position that
+  // was computed before.
   const from = await joint(page, 1, 'leftHand');
   await page.evaluate(([x, y, z]) => {
     for (const phase of ['begin', 'move', 'end']) {

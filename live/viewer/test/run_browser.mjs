@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// npm run test:browser: what people do with the page, done in a browser without a screen.
-// Says "skipped:" where there is none.
+// npm run test:browser: user actions on the page in a headless browser. Prints "skipped:"
+// if there is no browser.
 
 import {spawnSync} from 'node:child_process';
 import {fileURLToPath} from 'node:url';
@@ -14,7 +14,7 @@ if (why) {
   process.exit(0);
 }
 const here = fileURLToPath(new URL('.', import.meta.url));
-// One after another: drawing in software leaves no core for a second browser.
+// Runs one test at a time, as rendering in software leaves no core for a second browser.
 const {status} = spawnSync(process.execPath, ['--test', '--test-concurrency=1',
   ...['live', 'file'].map((name) => `${here}${name}_page.test.mjs`)], {stdio: 'inherit'});
 process.exit(status ?? 1);

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Builds the page and the reports as `npm run build` does, where that can be; then looks at what
-// came out: all of it there, nothing in it that fetches from elsewhere or runs text as code.
+// Builds the page and the reports as `npm run build` does, if node and its packages are
+// installed. Then checks the output: all files exist, and none loads from other servers or
+// runs text as code.
 
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
@@ -20,7 +21,7 @@ for (const kind of ['report', 'calibration', 'markers']) {
   const [shell, code, look] = ['html', 'js', 'css'].map((end) =>
     readFileSync(`${reportFolder}${kind}.${end}`, 'utf8'));
   for (const place of ['style', 'data', 'script']) assert.ok(shell.includes(`{{${place}}}`));
-  // A parser of HTML would end the script, or its page, there.
+  // An HTML parser would end the script, or its page, there.
   assert.doesNotMatch(code, /<\/script|<!--/i);
   assert.doesNotMatch(code, /\beval\(|new Function\(/);
   assert.doesNotMatch(look, /url\(|@import|<\/style/i);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The types of the page, as `npm run check` looks at them.
+// Checks the types of the page as `npm run check` does.
 
 import {spawnSync} from 'node:child_process';
 import {fileURLToPath} from 'node:url';

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The page as marey serves it, in a browser. MAREY_PROGRAM is marey, MAREY_RESULTS what
-// `marey process` made of MAREY_SESSION, whose trial is `walk`. Says "skipped:" without a
-// browser.
+// Tests the page that marey serves, in a browser. MAREY_PROGRAM is marey, MAREY_RESULTS
+// what `marey process` made of MAREY_SESSION, whose trial is `walk`. Prints "skipped:" if
+// there is no browser.
 
 import {spawnSync} from 'node:child_process';
 import {existsSync} from 'node:fs';
@@ -17,7 +17,7 @@ if (why) {
 }
 for (const name of ['MAREY_PROGRAM', 'MAREY_RESULTS', 'MAREY_SESSION']) {
   if (!existsSync(process.env[name] ?? '')) {
-    console.error(`${name} names nothing that is there`);
+    console.error(`${name} is not an existing file or folder`);
     process.exit(1);
   }
 }

@@ -4,7 +4,7 @@
 // A person is measured by `marey live`, whose page does the asking: the sample session's
 // videos stand before the cameras. MAREY_PROGRAM is the program, MAREY_SAMPLE the session's
 // folder, MAREY_RESULTS has its calibration and the body that marey process found.
-// Says "skipped:" where there is no browser.
+// Prints "skipped:" if there is no browser.
 
 import assert from 'node:assert/strict';
 import {spawn} from 'node:child_process';
@@ -29,7 +29,7 @@ function makeSession(folder) {
   }
 }
 
-/** Settles with the address that it says. */
+/** Resolves with the address that it prints. */
 function startMarey(folder) {
   const marey = spawn(process.env.MAREY_PROGRAM, ['live', folder, '--results', folder,
     '--media', process.env.MAREY_SAMPLE, '--play', 'static', '--play', 'rom', '--loop',
@@ -49,7 +49,8 @@ function startMarey(folder) {
   return {address, ended, stop: () => marey.kill('SIGINT')};
 }
 
-/** Lengths of limbs in centimetres. A limb is as long as the joint at its end is away. */
+/** Lengths of limbs in centimetres. The length of a limb is the distance of the joint at its
+ *  end. */
 function limbsIn(file) {
   const ends = {leftLowerArm: 'left upper arm', leftHand: 'left lower arm',
     rightLowerArm: 'right upper arm', rightHand: 'right lower arm',
@@ -76,7 +77,7 @@ async function drive(page, folder) {
   assert.match(await guidance.textContent(), /^Stand still/);
   await title('Move every joint');
   await press('Next');
-  // The program says no, and the page says so beside what was pressed.
+  // The program rejects the request, and the page shows the reason next to the button.
   await wizard.getByText('move for at least five seconds').waitFor();
   await press('Cancel');
   await title('Measure a subject');
@@ -115,16 +116,16 @@ async function drive(page, folder) {
   }
   assert.notEqual(readFileSync(`${folder}/subject.toml`, 'utf8'), before);
   assert.equal(readFileSync(`${folder}/subject.toml.before`, 'utf8'), before);
-  // It is followed with the new body.
+  // The subject is tracked with the new body.
   await page.locator('.pill', {hasText: 'tracked'}).waitFor();
 }
 
-/** Next, until five seconds of moving were seen: those whose pictures are lost do not count. */
+/** Presses Next until five seconds of movement were seen; lost pictures do not count. */
 async function goOn(page, press) {
   const end = performance.now() + 120_000;
   while (await page.locator('.section-wizard h3').textContent() === 'Move every joint') {
     assert.ok(performance.now() < end, 'Next had no effect');
-    await press('Next').catch(() => {}); // The step went on by itself.
+    await press('Next').catch(() => {}); // The step ended without Next.
     await page.waitForTimeout(700);
   }
 }

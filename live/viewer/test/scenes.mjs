@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the mock tells: scenes, states, steps of a calibration.
+// Messages of the mock: scenes, states, steps of a calibration.
 
 import {JOINTS, sourceAt} from './walker.mjs';
 
-/** What the mock's recording calls its first frame. */
+/** Number of the first frame of the mock's recording. */
 export const FIRST = 100;
 
 /** Cameras in front, aside and behind, all looking at the middle. */

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// npm run serve [-- file]: the page with the mock behind it, to be looked at.
+// npm run serve [-- file]: serves the page with the mock server, for manual tests.
 
 import {MockServer} from './mock_server.mjs';
 

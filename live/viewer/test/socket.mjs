@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// As much of WebSocket (RFC 6455) as a mock of marey needs: no fragments, no extensions.
+// The part of WebSocket (RFC 6455) that the mock server needs: no fragments, no extensions.
 
 import {createHash} from 'node:crypto';
 
 const MAGIC = '258EAFA5-E914-47DA-95CA-C5AB0DC85B11';
 
-/** Answers the handshake; `heard(text)` gets what the page says. */
+/** Answers the handshake; `heard(text)` receives the messages of the page. */
 export class PageSocket {
   constructor(request, socket, heard, closed) {
     const accept = createHash('sha1').update(request.headers['sec-websocket-key'] + MAGIC)
@@ -27,7 +27,7 @@ export class PageSocket {
     socket.on('close', closed);
   }
 
-  /** A text, or bytes. Left out while much is still unsent: the newest counts. */
+  /** A text, or bytes. Dropped while much is unsent, as only the newest frame matters. */
   send(message) {
     const text = typeof message === 'string';
     if (!text && this.socket.writableLength > 1 << 20) return;
@@ -50,7 +50,8 @@ export class PageSocket {
     this.socket.destroy();
   }
 
-  /** The next whole text; '' for what is none; null when there is no more. */
+  /** Returns the next complete text, '' for other messages, null if no complete message
+   *  remains. */
   #next() {
     const {waiting: data} = this;
     if (data.length < 2) return null;
@@ -61,7 +62,7 @@ export class PageSocket {
       length = data.readUInt16BE(2);
       at = 4;
     } else if (length === 127) {
-      throw new Error('the page says more than it may');
+      throw new Error('the message of the page is too long');
     }
     if (data.length < at + 4 + length) return null;
     const mask = data.subarray(at, at + 4);

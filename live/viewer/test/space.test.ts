@@ -29,7 +29,7 @@ const joint = (parent: number, p: Vector, q: Quaternion = none): JointWords =>
   ({name: `j${p}`, parent, bone: '', rest: {p, q}});
 const chain = {joints: [joint(-1, [0, 1, 0]), joint(0, [1, 0, 0]), joint(1, [1, 0, 0])]};
 
-test('turning as a product of quaternions says', () => {
+test('rotated as a product of quaternions rotates', () => {
   const a = [0, 0, HALF, HALF]; // A quarter turn about z.
   const b = [HALF, 0, 0, HALF]; // About x.
   const v = [0, 1, 0];
@@ -106,7 +106,7 @@ test('nodes with axes of their own follow the joints in the world', () => {
   close(reached, wanted.subarray(4));
 });
 
-test('a view frames what it is asked to', () => {
+test('a view frames the given points', () => {
   const points = [-0.5, 0, 0, 0.5, 1.8, 0.3, 0.1, 1, -0.2];
   for (const [azimuth, height, aspect] of [[0, 0, 1], [0.7, 0.3, 1.8], [3, 1.5, 0.5]]) {
     const view = framing(points, azimuth, height, aspect)!;
@@ -126,7 +126,7 @@ test('a view frames what it is asked to', () => {
   assert.equal(framing([NaN, NaN, NaN], 0, 0, 1), null);
 });
 
-test('the eye glides to where it is sent, by the shorter way, and stops', () => {
+test('the eye moves to its target by the shorter way, and stops', () => {
   const orbit = new Orbit();
   const view = {target_in_world: [1, 1, 1] as Vector, distance_m: 3, azimuth: 0, height: 0};
   orbit.goTo({...view, azimuth: 6.2}, true);
@@ -152,7 +152,7 @@ test('a panned eye keeps its distance', () => {
   assert.ok(Math.abs(orbit.distance_m - before) < 1e-9);
 });
 
-test('the eye goes along with who walks, not with who sways', () => {
+test('the eye follows a walking body, not a swaying one', () => {
   close(leash(0.15, -0.2), [0, 0]);
   const [dx, dz] = leash(3, 4);
   assert.ok(Math.abs(Math.hypot(3 - dx, 4 - dz) - 0.25) < 1e-9);
@@ -169,7 +169,7 @@ test('a drag stays in its plane, a vertical one on its line', () => {
   assert.equal(dragVertically(eye, [0, -1, 0], [0, 0, 5]), null);
 });
 
-test('a polygon carries what is over it, whichever way round it is told', () => {
+test('a polygon supports points above it in either order of its corners', () => {
   const square = [0, 0, 1, 0, 1, 1, 0, 1];
   const reversed = [0, 1, 1, 1, 1, 0, 0, 0];
   for (const corners of [square, reversed]) {
@@ -179,7 +179,7 @@ test('a polygon carries what is over it, whichever way round it is told', () => 
   assert.ok(!carries(square, 2, 0.5, 0));
 });
 
-test('a camera sees where its picture is, not behind', () => {
+test('a camera sees points in front of it, not behind', () => {
   // From +Z towards the middle: x of the picture is +X of the world, y goes down.
   const lines = frustumLines({name: 'c', width_px: 101, height_px: 101, fx: 100, fy: 100,
     cx: 50, cy: 50, rms_px: null,
@@ -199,15 +199,15 @@ test('a bone goes from joint to joint, its shadow lies on the floor', () => {
   assert.equal(out[13], 0.5);
 });
 
-test('the picture gets coarser when it cannot keep up, and not for nothing', () => {
+test('the resolution decreases if drawing is too slow, and only then', () => {
   const quality = new Quality(2, false);
   assert.equal(quality.ratio, 2);
-  assert.equal(quality.second(3, 0, 1e6), false, 'few pictures say nothing');
-  assert.equal(quality.second(30, 10, 1e6), false, 'one bad second says little');
+  assert.equal(quality.second(3, 0, 1e6), false, 'few pictures change nothing');
+  assert.equal(quality.second(30, 10, 1e6), false, 'one bad second changes nothing');
   assert.equal(quality.second(30, 10, 1e6), true);
   assert.equal(quality.ratio, 1.5);
   for (let i = 0; i < 100; ++i) quality.second(30, 30, 1e6);
-  assert.equal(quality.ratio, 1.5, 'what was too much is not tried again');
+  assert.equal(quality.ratio, 1.5, 'a resolution that was too slow is not tried again');
   const small = new Quality(1, true);
   for (let i = 0; i < 10; ++i) assert.equal(small.second(30, 5, 640 * 360), false);
 });

@@ -60,7 +60,7 @@ test('steps go to whole frames and stay within the recording', () => {
   assert.equal(film.time, 10);
 });
 
-test('live, the newest is shown until one looks back; then the past stays', () => {
+test('live, the newest frame is shown until the user seeks; then the past stays', () => {
   const live = playback(0);
   live.follow();
   live.setRange(0, 50);
@@ -69,7 +69,7 @@ test('live, the newest is shown until one looks back; then the past stays', () =
   live.setRange(0, 60);
   assert.equal(live.time, 20);
   live.setRange(30, 90);
-  assert.equal(live.time, 30, 'what is forgotten cannot be shown');
+  assert.equal(live.time, 30, 'dropped frames cannot be shown');
   live.play();
   live.advance(10, true);
   assert.ok(live.following, 'having caught up it follows');
@@ -86,7 +86,7 @@ test('the ring keeps the newest frames and counts on', () => {
   assert.equal(ring.source(4, 1), ABSENT);
 });
 
-test('rows of a ring tell runs of what was not measured', () => {
+test('rows of a ring have the runs that were not measured', () => {
   const ring = new FrameRing(100, 1);
   [0, 0, 1, 1, 2, 0, 0, 1].forEach((source, i) => ring.push(view(i), new Uint8Array([source])));
   const rows = new RingRows(['hips'], ring);
@@ -96,7 +96,7 @@ test('rows of a ring tell runs of what was not measured', () => {
   assert.equal(rows.source(0, 200), ABSENT);
 });
 
-test('rows of a file tell the gaps that are in sight', () => {
+test('rows of a file have the visible gaps', () => {
   const rows = new FileRows({frames: 100, first_frame: 10, block: null, points_block: null,
     tracks: [{name: 'a', gaps: [[13, 18, 'repaired'], [60, 70, 'inferred']]}], contacts: [],
     graphs: [], notes: []});
@@ -107,7 +107,7 @@ test('rows of a file tell the gaps that are in sight', () => {
   assert.equal(rows.source(0, 9), 0);
 });
 
-test('what bears, and the residual, are remembered as long as frames are', () => {
+test('contacts and the residual are kept as long as frames', () => {
   const ring = new FrameRing(4, 0);
   // Left heel; both balls; nothing; right ball; left heel.
   [1, 10, 0, 8, 1].forEach((bears, i) => ring.push(view(i), null, bears, i === 2 ? NaN : i / 4));
@@ -117,7 +117,7 @@ test('what bears, and the residual, are remembered as long as frames are', () =>
     contacts.spans(row, 0, 10, 1, (...span) => found.push(span));
     return found;
   };
-  assert.deepEqual(spans(0), [[4, 4, BEARS]], 'the first frame is forgotten');
+  assert.deepEqual(spans(0), [[4, 4, BEARS]], 'the first frame is dropped');
   assert.deepEqual(spans(1), [[1, 1, BEARS]]);
   assert.deepEqual(spans(3), [[1, 1, BEARS], [3, 3, BEARS]]);
   assert.equal(contacts.source(3, 3), BEARS);
@@ -163,7 +163,7 @@ test('a window on all of it grows with it; a zoomed one stays', () => {
   seen.setRange(0, 210);
   assert.deepEqual([seen.from, seen.to], [from, to]);
   seen.setRange(150, 360);
-  assert.equal(seen.from, 150, 'what is forgotten cannot be in sight');
+  assert.equal(seen.from, 150, 'dropped frames cannot be visible');
   seen.reveal(300);
   assert.ok(seen.to >= 300);
 });

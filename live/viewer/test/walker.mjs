@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A body that walks on the spot, for a server that is none: 25 joints, some of them isUncertain.
+// A body that walks on the spot, for the mock server: 25 joints, some of them uncertain.
 
 const BONES = [
   ['hips', '', 0, 0.96, 0], ['spine', 'hips', 0, 0.1, 0], ['chest', 'spine', 0, 0.13, 0],
@@ -21,7 +21,7 @@ for (const [side, s] of [['left', 1], ['right', -1]]) {
     [`${side}Toes`, `${side}Foot`, 0, -0.06, 0.14]);
 }
 
-/** Joints as a scene names them, parents first; at rest a T-pose. */
+/** Joints in the order of a scene, parents first; the rest pose is a T-pose. */
 export const JOINTS = BONES.map(([name, parent, x, y, z]) => ({
   name,
   parent: BONES.findIndex(([other]) => other === parent),
@@ -40,8 +40,8 @@ const times = (a, b) => [
   a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3],
   a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]];
 
-/** Rotations at this time, x y z w per joint. `droop`: by how much arms hang at rest
- *  already, less than a T-pose. [rad] */
+/** Rotations at this time, x y z w per joint. `droop`: angle by which the arms of the rest
+ *  pose hang below a T-pose. [rad] */
 export function postureAt(time_s, droop = 0) {
   const swing = Math.sin(2 * Math.PI * 0.9 * time_s);
   return JOINTS.map(({name}) => {

@@ -18,13 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Expects exit code 3, one error line with all of `parts`, and no output file.
+/// Expects the exit code, one error line with all of `parts`, and no output file.
 void expect_refused(const AdaptScene& scene,
                     const std::vector<std::string>& more,
-                    const std::vector<std::string>& parts) {
+                    const std::vector<std::string>& parts,
+                    int exit_code = 3) {
   fs::remove(scene / "out.bvh");
   const ProgramRun run = scene.adapt(more);
-  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_EQ(run.exit_code, exit_code) << run.err;
   EXPECT_EQ(run.out, "");
   EXPECT_EQ(run.err.rfind("error: ", 0), 0U) << run.err;
   EXPECT_EQ(run.err.find('\n'), run.err.size() - 1) << run.err;
@@ -97,7 +98,8 @@ TEST(AdaptRefuses, CharactersWithoutMassOrLoadOrGroup) {
   expect_refused(scene, {"--load", "bag"}, {"\"bag\"", "[[load]]"});
   expect_refused(scene,
                  {"--balance-groups", "left arn"},
-                 {"\"left arn\"", "perhaps you mean \"left arm\""});
+                 {"\"left arn\"", "perhaps you mean \"left arm\""},
+                 2);
 }
 
 // The program protects an input under every name of its file.

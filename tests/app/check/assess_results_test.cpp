@@ -61,7 +61,7 @@ TEST(AssessResults, ReportsAMisplacedTag) {
                            {11, "leftLowerLeg", {}, 14.0, 12.3, 400},
                            {12, "leftHand", {}, 80.0, 70.0, 76}};
   const auto found = assess_results(report);
-  ASSERT_EQ(found.size(), 1U) << "of a tag that is hardly seen nothing is said";
+  ASSERT_EQ(found.size(), 1U) << "a tag with few sightings causes no finding";
   EXPECT_EQ(found[0].severity, Severity::kPoor);
   EXPECT_EQ(found[0].where, "trial walk, tag 11");
   EXPECT_EQ(found[0].cause,

@@ -296,7 +296,7 @@ TEST(SoleHeight, IsThatOfWhoStandsOnTheFloor) {
   for (auto& joints : estimate.uncertainty) {
     joints.assign(kHumanBoneCount, JointUncertainty{0.05, Source::kInferred});
   }
-  EXPECT_FALSE(sole_height_m(estimate, walk.body.stature_m)) << "nobody saw the feet";
+  EXPECT_FALSE(sole_height_m(estimate, walk.body.stature_m)) << "no camera saw the feet";
 }
 
 }  // namespace

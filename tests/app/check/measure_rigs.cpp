@@ -178,7 +178,7 @@ void print_move(const std::vector<marey::Camera>& cameras,
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!move) {
-    std::printf("  %s: nothing tells [%.1f s]\n", label.c_str(), seconds);
+    std::printf("  %s: no camera is named [%.1f s]\n", label.c_str(), seconds);
     return;
   }
   std::printf(

@@ -25,7 +25,7 @@ TEST(LiveHealth, ReportsALostCameraAndItsReturn) {
   LiveCameraFigures now = before;
   EXPECT_EQ(camera_status(now, nullptr, 3).state, PageCameraState::kStreaming);
   EXPECT_EQ(camera_status(now, &before, 3).state, PageCameraState::kSilent);
-  EXPECT_EQ(camera_status(now, &before, 3).tags, 0) << "of a picture that is old";
+  EXPECT_EQ(camera_status(now, &before, 3).tags, 0) << "the picture is old";
   now.pictures = 11;
   now.health = {capture::CameraState::kLost, "/dev/video0: it was unplugged"};
   EXPECT_EQ(camera_status(now, &before, 3).state, PageCameraState::kLost);

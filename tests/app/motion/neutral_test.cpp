@@ -98,7 +98,7 @@ TEST(Neutral, UsesTheRequestedNeutral) {
             std::string::npos);
   EXPECT_NE(refused("frame:100000").find("there is no frame 100000"), std::string::npos);
   EXPECT_NE(refused(neutral_file("mocap/cmu_bvh_tmoco/rest.bvh").string())
-                .find("of the same skeleton"),
+                .find("use a file of the same skeleton"),
             std::string::npos);
   EXPECT_EQ(read_neutral("frame:x").error().cause,
             "\"frame:x\" is not a neutral posture");

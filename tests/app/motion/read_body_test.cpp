@@ -243,7 +243,11 @@ TEST(ReadBody, NamesTheFileThatIsNoBody) {
   ASSERT_TRUE(
       recordings::write_file(folder / "cut.glb", bytes->substr(0, bytes->size() / 2)));
   EXPECT_NE(said(folder / "cut.glb").find("cut short"), std::string::npos);
-  EXPECT_NE(said(folder / "man.fbx").find("is not a .bvh, .amc"), std::string::npos);
+  ASSERT_TRUE(recordings::write_file(folder / "man.fbx", "Kaydara FBX Binary"));
+  EXPECT_NE(said(folder / "man.fbx")
+                .find("give a file of one of these kinds: .bvh, .amc, .npz, .glb, .gltf, "
+                      ".vrm or .vrma"),
+            std::string::npos);
 }
 
 /// Returns the joints of a retargeted file, in marey's frame.

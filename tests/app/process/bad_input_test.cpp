@@ -129,7 +129,7 @@ AssertionResult goes_on(const SpoiledSession& session,
   }
   const auto report = nlohmann::json::parse(run.out);
   if (report.at("warnings").dump().find(cause) == std::string::npos) {
-    return AssertionFailure() << "the report does not tell";
+    return AssertionFailure() << "the report does not contain the cause";
   }
   if (!session.has_result("walk/joints.csv")) return AssertionFailure() << "no motion";
   return AssertionSuccess();

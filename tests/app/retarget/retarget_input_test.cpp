@@ -77,7 +77,7 @@ TEST(RetargetInput, RefusesWhatCannotBeMeant) {
   using Options = std::vector<std::string>;
   for (const auto& [options, exit_code, text] :
        std::vector<std::tuple<Options, int, std::string>>{
-           {{"--out", "o"}, 2, "an avatar"},
+           {{"--out", "o"}, 2, "AVATAR is missing"},
            {{"small.glb"}, 2, "--out"},
            {{"small.glb", "--out", "o", "--formats", "glb,fbx"}, 2, "fbx"},
            {{"small.glb", "--out", "o", "--bvh-dialect", "max"}, 2, "max"},

@@ -62,7 +62,7 @@ TEST(V4l2FramesBetween, CountsSkippedSequenceNumbers) {
   EXPECT_EQ(frames_between(0xFFFFFFFFU, 0), 0);
   EXPECT_EQ(frames_between(0xFFFFFFFEU, 2), 3);
   EXPECT_EQ(frames_between(7, 7), 0) << "drivers that do not count";
-  EXPECT_EQ(frames_between(900, 0), 0) << "drivers that began anew";
+  EXPECT_EQ(frames_between(900, 0), 0) << "drivers that restarted their count";
 }
 
 TEST_F(V4l2Frames, ComeWithTheKernelsStampAndNumber) {

@@ -100,7 +100,7 @@ const std::vector<Broken>& broken() {
       {"an address without a slash", "ab\0\0,\0\0\0"s},
       {"types without a comma", "/ab\0i\0\0\0\0\0\0\1"s},
       {"types without an end", "/ab\0,iii"s},
-      {"a type that nobody knows", "/ab\0,q\0\0\0\0\0\1"s},
+      {"an unknown type", "/ab\0,q\0\0\0\0\0\1"s},
       {"too few arguments", "/ab\0,ii\0\0\0\0\1"s},
       {"too many bytes", sound + "\0\0\0\0"s},
       {"a text without an end", "/ab\0,s\0\0abcd"s},

@@ -59,7 +59,7 @@ TEST(AssessSubject, NamesATagThatNoPlaceExplains) {
   Fitted fit;
   fit.bundle.model.segment_from_tag.erase(3);
   fit.evidence.unexplained = {3};
-  EXPECT_EQ(fit.warning_text(), "") << "it was hardly seen";
+  EXPECT_EQ(fit.warning_text(), "") << "few frames show it";
   std::vector<TagSighting> sightings(12);
   for (TagSighting& sighting : sightings) sighting.tag = 3;
   BundleFrame frame;

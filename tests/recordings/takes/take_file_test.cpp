@@ -217,7 +217,7 @@ TEST(TakeFile, ReportsValuesThatNoRecorderWrites) {
         "UPDATE frame SET camera = 2 WHERE number = 1",
         "UPDATE camera SET rate_hz = 9e999",
         "UPDATE camera SET file = '../cam0.mkv'",
-        "INSERT INTO event VALUES(2, 5, 'of nobody')"}) {
+        "INSERT INTO event VALUES(2, 5, 'without camera')"}) {
     fs::remove(folder / kTakeFile);
     auto writer = TakeWriter::create(folder / kTakeFile, two_cameras());
     ASSERT_TRUE(writer);

@@ -177,7 +177,7 @@ TEST(AdaptMotion, ALoadIsBalancedWhereFootprintsTakeTheBody) {
     furthest_m =
         std::max(furthest_m, without.x - scene.com(scene.walk.motion, t, false).x);
   }
-  EXPECT_GT(furthest_m, 0.25) << "footprints take nobody along";
+  EXPECT_GT(furthest_m, 0.25) << "footprints do not move the body";
 }
 
 // A constraint without a fade moves the hand by the whole distance in a frame or two. One

@@ -84,7 +84,7 @@ void expect_reached(const Character& body, const AdaptOptions& options, bool bal
     if (off_m > 1e-3 + 1e-5) ++worse;
   }
   EXPECT_EQ(worse, 0) << "of " << tried << "; the worst by " << worst_m << " m";
-  EXPECT_GT(tried, 100) << "of 200: limits leave too few postures to learn from";
+  EXPECT_GT(tried, 100) << "of 200: the limits leave too few postures for this test";
 }
 
 TEST_P(AdapterFeasible, ReachesWithBothHandsOnBothFeet) {

@@ -214,7 +214,7 @@ TEST(UpOfMotion, IsTheUsualOneWhereABodyLiesMostOfTheTime) {
   }
   EXPECT_NE(up_of_motion(walk_after_sleep(rig, count), rig.found).axis,
             glm::dvec3(0, 1, 0))
-      << "nothing tells it from a file whose Z is up: a remark says what was taken";
+      << "it cannot be distinguished from a file with Z up; a remark states the choice";
 }
 
 // An old man's walk leans forward, on another body too.

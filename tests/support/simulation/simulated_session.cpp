@@ -72,7 +72,7 @@ std::string SimulatedSession::summary() const {
   std::snprintf(line.data(),
                 line.size(),
                 "%zu cameras (%s, %dp), %zu tags (up to %d a segment, %.0f mm, slide "
-                "%.1f mm), %.2f m (says %.2f), %s, %s, %s",
+                "%.1f mm), %.2f m (stated %.2f), %s, %s, %s",
                 rig.cameras.size(),
                 rig.layout.c_str(),
                 rig.cameras.front().intrinsics.height_px,

@@ -76,7 +76,7 @@ class Page implements Listener, StageListener {
     const drawing = drawingOfBrowser();
     if (drawing === 'lines') throw new Error('WebGL 2 is missing');
     this.stage = new Stage(this.theme, this, {drawing, label:
-      'The scene in three dimensions. Drag turns it, space plays, question mark: all keys.',
+      'Three-dimensional scene. Drag to rotate, press space to play, question mark for all keys.',
     load_skin: (words, signal) => AvatarView.load(words, signal, drawing === 'software')});
     byId('stage').append(this.stage.element, this.wizard.guidance.element);
     this.panels = new Panels(byId('panels'), () => this.cameras.ask());
@@ -322,5 +322,6 @@ try {
 } catch (problem) {
   document.body.append(el('p', {class: 'banner', role: 'alert'},
     'This page cannot be shown: ', problem instanceof Error ? problem.message :
-      String(problem), '. It needs a browser with WebGL 2; in most it can be switched on.'));
+      String(problem), '. It needs a browser with WebGL 2, which can be enabled in the settings ' +
+        'of most browsers.'));
 }

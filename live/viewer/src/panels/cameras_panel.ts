@@ -35,7 +35,7 @@ export class CamerasPanel {
     this.section.tell(String(cameras.length));
     this.pictures = cameras.map((camera) => {
       const canvas = el('canvas', {width: 0, height: 0, role: 'img',
-        'aria-label': `What ${camera.name} sees`});
+        'aria-label': `Picture of ${camera.name}`});
       canvas.style.aspectRatio = `${camera.width_px} / ${camera.height_px}`;
       canvas.hidden = !live;
       return {canvas, busy: false, next: null, state: el('span', {class: 'state'}),

@@ -56,7 +56,8 @@ export class Header {
     if (!connected) this.status = null;
     this.banner.hidden = connected;
     setText(this.banner, connected ? ''
-      : 'The connection to marey is lost. Trying again twice a second; is it still running?');
+      : 'The connection to marey is lost. Check that it is still running. The page reconnects ' +
+        'when it is.');
     this.tell();
   }
 

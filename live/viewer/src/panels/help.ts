@@ -6,14 +6,16 @@
 import {el} from '../base/elements';
 
 const KEYS: [string[], string][] = [
-  [['space'], 'play, pause'], [['←', '→'], 'one frame back, on'],
-  [['shift ←', 'shift →'], 'one second back, on'],
+  [['space'], 'play, pause'], [['←', '→'], 'one frame back, forward'],
+  [['shift ←', 'shift →'], 'one second back, forward'],
   [['home', 'end'], 'first, last frame (live: now)'], [['L'], 'loop'],
-  [['F'], 'all bodies in the picture'], [['1', '2', '3'], 'from the front, their left, above'],
+  [['F'], 'fit all bodies into the view'],
+  [['1', '2', '3'], 'view from the front, their left, above'],
   [['+', '−'], 'nearer, farther'], [['drag'], 'turn; on a handle: move it'],
   [['shift drag'], 'pan; on a handle: up and down'],
   [['wheel', 'two fingers'], 'zoom; on the timeline: zoom in time'],
-  [['double click'], 'all of it'], [['D'], 'segments, contacts, graphs'], [['P'], 'panels'],
+  [['double click'], 'reset the view; on the timeline: show all'],
+  [['D'], 'segments, contacts, graphs'], [['P'], 'panels'],
   [['?'], 'this help'],
 ];
 

@@ -11,20 +11,21 @@ import type {Stage} from '../scene/stage';
 import type {Choice, Theme} from '../base/theme';
 
 const LAYERS: [Exclude<keyof Shown, 'colouring'>, string, string][] = [
-  ['skin', 'Skin', 'Avatars with their skin; otherwise their bones'],
-  ['bones', 'Bones', 'Also of avatars with skin'],
-  ['uncertainty', 'Uncertainty', 'A ball of two sigma around every joint'],
-  ['balance', 'Balance', 'Centre of mass, its plumb line, the polygon that carries it'],
-  ['cameras', 'Cameras', 'Their positions and fields of view'],
+  ['skin', 'Skin', 'Show the skin of avatars, otherwise their bones'],
+  ['bones', 'Bones', 'Show bones also for avatars with skin'],
+  ['uncertainty', 'Uncertainty', 'A sphere of two sigma around every joint'],
+  ['balance', 'Balance', 'Centre of mass, its plumb line and the support polygon'],
+  ['cameras', 'Cameras', 'Positions and fields of view of the cameras'],
   ['handles', 'Handles', 'Constraints that can be dragged'],
-  ['names', 'Names', 'Of bodies, cameras and points'],
+  ['names', 'Names', 'Names of bodies, cameras and points'],
   ['follow', 'Follow', 'The view moves with the subject'],
 ];
 
 const MEANINGS = {
   measured: 'cameras saw it in this frame',
-  repaired: 'out of sight for a while, filled in from before and after',
-  inferred: 'no tag on it, out of sight for long, or a limb’s joint known to no better than 20 mm',
+  repaired: 'not seen; interpolated between sightings shortly before and after',
+  inferred: 'without a tag, not seen for a long time, or a joint of a limb with a sigma ' +
+    'above 20 mm',
 };
 
 export class ViewPanel {
@@ -43,7 +44,7 @@ export class ViewPanel {
   }
 
   private layers(stage: Stage, changed: () => void): HTMLElement {
-    return el('div', {class: 'toggles', role: 'group', 'aria-label': 'What is drawn'},
+    return el('div', {class: 'toggles', role: 'group', 'aria-label': 'Layers of the view'},
       ...LAYERS.map(([layer, label, title]) => {
         const kept = remembered(`layer.${layer}`);
         if (kept !== null) stage.shown[layer] = kept === 'on';

@@ -25,7 +25,7 @@ export class WizardPanel {
   private readonly error = el('p', {class: 'error', role: 'alert'});
   private readonly progress = el('progress', {max: 1, 'aria-label': 'Progress of this step'});
   private readonly seen = el('p', {class: 'note'},
-    'Where each camera saw tags, and how far off its calibration is:');
+    'Tags seen by each camera, and the error of its calibration:');
   private readonly grids = el('div', {class: 'grids'});
   private readonly verdict = el('p');
   private readonly quality = el('ul', {class: 'quality', 'aria-label': 'Quality'});
@@ -56,8 +56,8 @@ export class WizardPanel {
       [name, width_px / height_px]));
     this.section.hidden = !live && wizard === null;
     this.show(wizard ?? {type: 'wizard', step: 'idle', title: 'Not calibrated here', text:
-      'Finds where the tags sit on the body: stand still, then move every joint.', progress: 0,
-    cameras: [], quality: [], error: ''});
+      'Measures the places of the tags on the body: stand still, then move every joint.',
+      progress: 0, cameras: [], quality: [], error: ''});
   }
 
   show(wizard: WizardWords): void {

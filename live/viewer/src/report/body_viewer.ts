@@ -42,7 +42,7 @@ export class BodyViewer {
       reset: () => this.frame(),
       trouble: () => {},
     }, {drawing: reportDrawing(), scrolled: true, solid: true,
-      label: 'The motion in three dimensions. Space plays, arrow keys step.'});
+      label: 'Three-dimensional view of the motion. Press space to play, arrow keys to step.'});
     Object.assign(this.stage.shown, {uncertainty: false, cameras: false});
     this.stage.renderer.canvas.setAttribute('role', 'img');
     this.stage.element.append(this.legend);
@@ -54,7 +54,7 @@ export class BodyViewer {
       button({onclick: () => this.frame()}, 'Reset view')),
     el('details', {class: 'keys'}, el('summary', {}, 'Keys and gestures'),
       el('p', {}, ...KEYS.flatMap(([key, what]) => [el('kbd', {}, key), ` ${what}  `]),
-        'The wheel zooms once the picture was clicked.')));
+        'The wheel zooms after a click into the picture.')));
     this.listenToKeys();
   }
 

@@ -11,7 +11,7 @@ import type {CalibratedCamera, Finding, RigFigures} from './data';
 import {shownTarget} from './rig_viewer';
 
 const MAX_OUTLIER_ROWS = 15;
-const SEVERITY = {poor: '○ put right', fair: '◐ could be better', note: 'note'};
+const SEVERITY = {poor: '○ to fix', fair: '◐ to improve', note: 'note'};
 const CHECKED_LAG_PX = 0.05;
 
 function figureCards({cameras, limits, middle_error_mm, inlier_rms_px}: RigFigures): HTMLElement {
@@ -31,13 +31,13 @@ function figureCards({cameras, limits, middle_error_mm, inlier_rms_px}: RigFigur
     graded('Points', limits.error_mm, middle_error_mm, fixed(middle_error_mm, 1), 'mm',
       'expected error of a point in the middle of the volume, at its worst height'),
     graded('Corners', limits.residual_px, inlier_rms_px, fixed(inlier_rms_px, 2), 'px',
-      'how far corners are from where the cameras expect them; worst in ' +
-      `${rough.name}: ${fixed(rough.inlier_rms_px, 2)}`),
-    card('Least sure place', `± ${fixed(loose.centre_sigma_mm, 1)}`, 'mm',
-      `sigma of where ${loose.name} stands`),
+      `RMS distance of corners from their expected places; worst in ${rough.name}: ` +
+      `${fixed(rough.inlier_rms_px, 2)}`),
+    card('Least certain position', `± ${fixed(loose.centre_sigma_mm, 1)}`, 'mm',
+      `sigma of the position of ${loose.name}`),
     graded('Least coverage', limits.coverage_percent, narrow.coverage_percent,
       fixed(narrow.coverage_percent, 0), '%',
-      `share of ${narrow.name}’s picture in which it was shown`));
+      `share of ${narrow.name}’s picture in which the target was seen`));
 }
 
 function judgement({verdict, middle_error_mm: error, findings}: RigFigures): string {
@@ -52,8 +52,8 @@ function judgement({verdict, middle_error_mm: error, findings}: RigFigures): str
     return `Fair: these cameras can be used, and ${count('fair', 'one thing', 'things')} ` +
       `below would make them better. ${point}`;
   }
-  return `Look closer: do not use these cameras before ${count('poor', 'one thing is',
-    'things are')} put right. ${point}`;
+  return 'Look closer: do not use these cameras before you fix ' +
+    `${count('poor', 'one thing', 'things')} below. ${point}`;
 }
 
 export function headSection(figures: RigFigures): void {
@@ -69,9 +69,9 @@ export function headSection(figures: RigFigures): void {
     `${plural(sightings, 'sighting')}, ${outliers} left out`].join(' · '), [
     el('p', {class: 'judgement'}, judgement(figures)),
     figureCards(figures),
-    el('h2', {}, 'What to record again, and why'),
-    findings.length === 0 ? paragraph('Nothing: coverage, tilt, views in common and errors are ' +
-      'as they should be.') : el('ul', {class: 'findings'}, ...found)]);
+    el('h2', {}, 'Recommended changes'),
+    findings.length === 0 ? paragraph('None: coverage, tilt, shared views and errors are good.')
+      : el('ul', {class: 'findings'}, ...found)]);
   document.title = `${session} – marey calibration`;
 }
 
@@ -83,8 +83,9 @@ export function togetherSection(figures: RigFigures): HTMLElement[] {
   const cell = (i: number, k: number): HTMLElement => el('span', {class: i === k ? 'own'
     : (best(i) < enough || best(k) < enough) && 'weak'}, String(shared[i][k]));
   return [
-    lead('The number of instants at which two cameras saw it together: these connect the cameras ' +
-      'to each other. Two that never share a view are joined through others, which is less sure.'),
+    lead('The number of instants at which two cameras saw it together. These shared views ' +
+      'determine the cameras’ positions relative to each other. Two cameras without shared ' +
+      'views are connected through others, which is less accurate.'),
     table(`Instants at which two cameras saw the ${shownTarget(figures)} together`,
       [...cameras.keys()], [
         ['Camera', (i) => cameras[i].name],
@@ -107,9 +108,8 @@ function clocksPart({cameras}: RigFigures): HTMLElement[] {
   };
   return [
     el('h3', {}, 'Clocks'),
-    lead('How much later each camera’s frames were taken than the first camera’s of the same ' +
-      'number, how fast its clock runs away, and how long it takes from one row of the picture ' +
-      'to the next.'),
+    lead('Offset: delay of a frame against the first camera’s frame of the same number. Drift: ' +
+      'change of the offset over time. Row to row: delay between adjacent rows of the picture.'),
     table('Clocks of the cameras', cameras, [
       ['Camera', ({name}) => name],
       ['Offset', cell('offset', 'ms', 2), 'number'],
@@ -127,10 +127,10 @@ function lagPart({cameras}: RigFigures, target: string): HTMLElement[] {
       `${target}’s movement.`)];
   }
   return [
-    el('h3', {}, 'Whether all started together'),
-    lead(`Errors that follow the ${target}’s movement show a camera that is late (positive) or ` +
-      `early against the others. The ${target}’s place is computed from all of them, so the ` +
-      'true figure is larger.'),
+    el('h3', {}, 'Synchronous start'),
+    lead(`Errors that follow the ${target}’s movement show that a camera is late (positive) or ` +
+      `early compared with the others. The ${target}’s place is computed from all cameras, so ` +
+      'the true lag is larger.'),
     table('Lag of every camera', lags, [
       ['Camera', ({name}) => name],
       ['Late by', (lag) => `${fixed(lag.lag_ms, 2)} ± ${fixed(lag.sigma_ms, 2)} ms`, 'number'],
@@ -143,17 +143,17 @@ export function checksSection(figures: RigFigures): HTMLElement[] {
   const {cross_validation: check, warp_mm: warp} = figures;
   const target = shownTarget(figures);
   return [
-    ...(check === null ? [lead('The calibration was not checked against frames that it did not ' +
-      'use.')] : [
-      lead('Calibrated from the even frames alone, the cameras are ' +
-        `${px(check.seen_rms_px)} off in these and ${px(check.held_out_rms_px)} in the odd ones, ` +
-        'which were not used: the closer the better. Below, how far even and odd frames put each ' +
-        `camera apart, and how far off it is when the others alone say where the ${target} was.`),
+    ...(check === null ? [lead('No frames were held out to check the calibration.')] : [
+      lead('If only the even frames are used for the calibration, the RMS error is ' +
+        `${px(check.seen_rms_px)} in these frames and ${px(check.held_out_rms_px)} in the odd ` +
+        'frames; the two should be close. The table shows how much each camera differs between ' +
+        'the calibrations from even and from odd frames, and its error if only the other ' +
+        `cameras determine the place of the ${target}.`),
       table('Cross-validation', check.cameras, [
         ['Camera', ({name}) => name],
-        ['Place apart', (c) => mm(c.centre_apart_mm), 'number'],
-        ['Turned apart', (c) => `${fixed(c.turn_apart_deg, 3)}°`, 'number'],
-        ['Focal length apart', (c) => px(c.focal_apart_px, 1), 'number'],
+        ['Position difference', (c) => mm(c.centre_apart_mm), 'number'],
+        ['Rotation difference', (c) => `${fixed(c.turn_apart_deg, 3)}°`, 'number'],
+        ['Focal length difference', (c) => px(c.focal_apart_px, 1), 'number'],
         ['Held out (median)', (c) => px(c.held_out_median_px), 'number'],
       ])]),
     ...lagPart(figures, target),
@@ -188,7 +188,7 @@ export function parametersSection({cameras, sigma_factor}: RigFigures): HTMLElem
   return [
     lead('All estimated numbers, each with its standard deviation. The standard deviations are ' +
       `${fixed(sigma_factor, 1)} times as large as those of independent corners with the stated ` +
-      'errors of their detector.'),
+      'detection errors.'),
     table('Parameters of every camera', [...units.keys()], [
       ['Parameter', (name) => {
         const unit = units.get(name)!;
@@ -211,9 +211,9 @@ export function outliersSection(figures: RigFigures): HTMLElement[] {
   ]);
   const rest = frames.slice(MAX_OUTLIER_ROWS);
   return [
-    lead(`${outliers} of ${sightings} sightings do not agree with the rest and were left out, in ` +
-      'the frames below, the worst first. A hand, blur or a mirror explains single ones; a ' +
-      'camera that fills the list was moved or is out of step.'),
+    lead(`${outliers} of ${sightings} sightings do not agree with the rest and were left out, ` +
+      'in the frames below, the worst first. A hand, blur or a mirror can cause single ' +
+      'outliers. If most are of one camera, it was moved or is not synchronized.'),
     made(frames.slice(0, MAX_OUTLIER_ROWS)),
     ...(rest.length === 0 ? [] : [fold(`${rest.length} more`, made(rest))]),
   ];

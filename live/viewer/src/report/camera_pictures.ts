@@ -16,7 +16,7 @@ function coveragePicture(camera: CalibratedCamera): HTMLElement {
   const {coverage_columns: columns, coverage_corners: cells, width_px, height_px} = camera;
   const [width, height] = [width_px / columns, height_px * columns / cells.length];
   const most = Math.log1p(Math.max(...cells, 1));
-  const words = `${fixed(camera.coverage_percent, 0)} % of the picture was shown`;
+  const words = `${fixed(camera.coverage_percent, 0)} % of the picture was covered`;
   return el('figure', {class: 'coverage'}, picture([0, 0, width_px, height_px], words,
     ...cells.map((count, i) => svg('rect', {x: (i % columns) * width,
       y: Math.floor(i / columns) * height, width, height, class: count === 0 && 'empty',
@@ -24,7 +24,7 @@ function coveragePicture(camera: CalibratedCamera): HTMLElement {
     }, svg('title', {}, plural(count, 'corner')))),
     svg('line', {x1: width_px / 2, x2: width_px / 2, y1: 0, y2: height_px}),
     svg('line', {x1: 0, x2: width_px, y1: height_px / 2, y2: height_px / 2})),
-  el('figcaption', {}, `Coverage: ${words}; a fuller colour is more often.`));
+  el('figcaption', {}, `Coverage: ${words}; a stronger colour means more often.`));
 }
 
 /** Returns the scale of drawn errors: most arrows are a few hundredths of the width. */
@@ -44,7 +44,7 @@ function residualPicture(camera: CalibratedCamera, {arrows, strays}: SeenCorners
     return svg('line', {class: kind, x1: x, y1: y, x2: (x + s * ex).toFixed(1),
       y2: (y + s * ey).toFixed(1)});
   };
-  const words = `Residuals × ${scale}: seen less expected`;
+  const words = `Residuals × ${scale}: observed minus expected`;
   return el('figure', {class: 'residuals'}, picture([0, 0, width_px, height_px],
     `${words}, ${plural(strays.length, 'outlier')}`,
     // Outliers are drawn below, so that they do not hide inliers.
@@ -56,7 +56,7 @@ function residualPicture(camera: CalibratedCamera, {arrows, strays}: SeenCorners
       svg('circle', {class: 'tail', cx: seen[0], cy: seen[1], r: dot / 1.6}),
       arrow(seen, 'arrow')])),
   el('figcaption', {}, `${words}.`, ...(strays.length === 0 ? []
-    : [' ', el('span', {class: 'stray'}, '○ left out'), ', arrows cut short'])));
+    : [' ', el('span', {class: 'stray'}, '○ left out'), ', arrows shortened'])));
 }
 
 function tiltPicture({tilts}: SeenCorners): HTMLElement | null {
@@ -73,15 +73,15 @@ function tiltPicture({tilts}: SeenCorners): HTMLElement | null {
       svg('title', {}, `${fixed(tilt, 0)}°, ${fixed(distance, 1)} m away`));
     }),
     ...[30, 60].map((tilt) => svg('text', {x: 0, y: -radius(tilt) + 2}, `${tilt}°`))),
-  el('figcaption', {}, 'Tilt of the board and its direction. Views near the centre add little ' +
-    'about a lens.'));
+  el('figcaption', {}, 'Tilt of the board and its direction. Views near the centre contribute ' +
+    'little to the lens parameters.'));
 }
 
 function seenWords(camera: CalibratedCamera): string {
   const parts = [plural(camera.views, 'view'), px(camera.inlier_rms_px),
     `lens ${camera.lens}, focal length ± ${px(camera.focal_sigma_px, 1)}`,
     camera.centre_sigma_mm > 0 ? `place ± ${withUnit(camera.centre_sigma_mm, 1, 'mm')}`
-      : 'its place is the origin'];
+      : 'its position is the origin'];
   if (camera.outlier_corners > 0) {
     const share = 100 * camera.outlier_corners / camera.corners;
     parts.push(`${fixed(share, share < 1 ? 1 : 0)} % of the corners left out`);
@@ -92,9 +92,10 @@ function seenWords(camera: CalibratedCamera): string {
 export function picturesSection({figures, cameras}: RigData): HTMLElement[] {
   const target = shownTarget(figures);
   return [
-    lead('Good is a picture filled to its edges, arrows that are short and point anywhere, and ' +
-      `a ${target} that was ${target === 'wand' ? 'turned' : 'tilted'} to all sides. Arrows ` +
-      'that agree with their neighbours show what the lens model misses.'),
+    lead('In a good calibration, coverage reaches the edges of the picture, arrows are short ' +
+      `and point in random directions, and the ${target} was ` +
+      `${target === 'wand' ? 'turned' : 'tilted'} in all directions. Neighbouring arrows with ` +
+      'the same direction show an error of the lens model.'),
     ...figures.cameras.map((camera, i) => el('article', {class: 'seen'},
       el('h3', {}, camera.name), el('p', {class: 'about'}, seenWords(camera)),
       el('div', {class: 'seen-figures'}, coveragePicture(camera),

@@ -154,8 +154,8 @@ export const mm = (value: number | null, decimals = 1): string => withUnit(value
 
 const MEANING: Record<Source, string> = {
   measured: 'seen by a camera at that instant',
-  repaired: 'not seen; bridged between sightings shortly before and after',
-  inferred: 'not seen for long; follows from its neighbours',
+  repaired: 'not seen; interpolated between sightings shortly before and after',
+  inferred: 'not seen for a long time; estimated from its neighbours',
 };
 /** Dashes repeat the meaning of the colours, for colour-blind readers. */
 export const SOURCE_DASH: Record<Source, string | null> = {measured: null, repaired: '7 4',

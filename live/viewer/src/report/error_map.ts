@@ -88,8 +88,8 @@ function errorMap(figures: RigFigures, height: MapHeight, top: number): HTMLElem
   const size = (right - left) / 24;
   const metre = Math.max(width, depth) > 2 ? 1 : 0.1;
   const cross = `M${mx - size / 2} ${mz}h${size}M${mx} ${mz - size / 2}v${size}`;
-  const words = `At ${height.height} height, ${fixed(height.height_m, 2)} m: half of the places ` +
-    `better than ${mm(height.median_error_mm)}, ${fixed(height.seen_percent, 0)} % seen by two`;
+  const words = `At ${height.height} height, ${fixed(height.height_m, 2)} m: median error ` +
+    `${mm(height.median_error_mm)}, ${fixed(height.seen_percent, 0)} % seen by two cameras`;
   const grid = (x1: number, x2: number, y1: number, y2: number): SVGElement =>
     svg('line', {class: 'metre', x1, x2, y1, y2, 'stroke-opacity': 0.35});
   const shown = picture([left, upper, right - left, bottom - upper], words,
@@ -120,20 +120,20 @@ export function errorsSection(figures: RigFigures): HTMLElement[] {
   const top = mapScale(map);
   const target = shownTarget(figures);
   const ground = figures.has_floor
-    ? 'Heights are above the floor: where ankles, hips and shoulders are.'
-    : 'Nothing showed the floor, so heights are those at which the ' +
-      `${target} was held, from the first camera’s.`;
+    ? 'Heights are those of ankles, hips and shoulders above the floor.'
+    : `The floor was not detected, so heights are those of the ${target}, relative to the first ` +
+      'camera.';
   return [
-    lead('How far a point would be from the truth (root mean square) if every camera that sees ' +
-      `it found it as well as it found the ${target}. The cameras’ own uncertainties are ` +
+    lead('The expected error of a measured point (root mean square) if every camera that sees ' +
+      `it detects it as accurately as the ${target}. The uncertainty of the cameras is ` +
       `included, occlusion by bodies is not. ${ground}`),
     scaleKey('Expected error of a point', `${Number(top.toPrecision(3))} mm`,
       el('span', {class: 'swatch', style: 'background: var(--seen-none)'}),
       'not seen by two cameras'),
     el('div', {class: 'maps'}, ...map.heights.map((height) => errorMap(figures, height, top))),
-    el('p', {class: 'about'}, `From above, squares of ${map.heights[0].error_mm.length *
-      map.step_m > 2 ? 'a metre' : 'ten centimetres'}, x to the right, z down; the cross is the ` +
-      'middle of the verdict, dashed lines are the cameras’ fields of view. Point at a place for its ' +
-      'figure.'),
+    el('p', {class: 'about'}, 'From above, squares of ' +
+      `${map.heights[0].error_mm.length * map.step_m > 2 ? 'a metre' : 'ten centimetres'}, x to ` +
+      'the right, z down; the cross is the middle of the volume, dashed lines are the cameras’ ' +
+      'fields of view. Point at a place to read its value.'),
   ];
 }

@@ -96,7 +96,7 @@ function curveCard(curve: MarkerCurve, trial: MarkerTrial, figure: MarkerTrialFi
   const sigmas = inside.map((i) => curve.sigma_mm[i]).filter((sigma) => sigma !== null);
   const about = [frameWords(trial, curve.first, curve.frames),
     duration(curve.frames / figure.rate_hz),
-    ...(inside.some((i) => curve.removed[i] === 1) ? ['wrong samples taken out'] : []),
+    ...(inside.some((i) => curve.removed[i] === 1) ? ['wrong samples removed'] : []),
     [...new Set(inside.map((i) => fates[curve.fates[i]]))].join(', '),
     ...(sigmas.length > 0 ? [`sigma up to ${mm(Math.max(...sigmas))}`] : [])];
   const time = (frame: number): HTMLElement =>
@@ -125,11 +125,13 @@ export function curvesSection({curves, ...trial}: MarkerTrial, figure: MarkerTri
     attributes: {style: `stroke: var(--${colour})`, 'stroke-width': 2.5,
       'stroke-dasharray': dash}});
   return [
-    lead('The longest and the least sure fills, and the wrong samples that were furthest off, one ' +
-      'of each marker: millimetres in the world, y up. Pale is the band of two sigma, grey the ' +
-      'frames in question; what was wrong and lies beyond the picture is drawn on its edge.'),
+    lead('The longest and the least certain fills, and the wrong samples with the largest ' +
+      'errors, one per marker: in world coordinates, millimetres, y up. The pale band is two ' +
+      'sigma; grey marks the frames of the gap or fault. Wrong samples outside the plot are ' +
+      'drawn on its edge.'),
     lineLegend([entry('measured', 'measured'), ...used.map((fate) => entry(fate, `fate-${fate}`)),
-      ...(isAnyWrong ? [entry('as read, and wrong; dots where taken out', 'quiet', '3 2')] : [])]),
+      ...(isAnyWrong
+        ? [entry('as read, and wrong; dots are removed samples', 'quiet', '3 2')] : [])]),
     el('div', {class: 'curves'}, ...curves.map((curve) =>
       curveCard(curve, {curves, ...trial}, figure, fates, theme))),
   ];

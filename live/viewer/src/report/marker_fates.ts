@@ -16,15 +16,15 @@ import type {Player} from './player';
 
 const FATE_MEANING: Record<Fate, string> = {
   'measured': 'as read from the file',
-  'swapped': 'measured under another marker’s name; put right',
-  'cluster': 'filled: carried along by the markers that it moves with most stiffly',
-  'structure': 'filled: and by how this trial’s markers move together',
-  'spline': 'filled: on its own path from before to after',
-  'predicted': 'filled: from its place on the solved skeleton',
+  'swapped': 'measured under another marker’s name; corrected',
+  'cluster': 'filled from the markers that move most rigidly with it',
+  'structure': 'filled from the correlation of this trial’s markers',
+  'spline': 'filled by interpolation of its own path',
+  'predicted': 'filled from its place on the solved skeleton',
   'left-empty': 'not known',
 };
-const FAULT_MEANING = 'what was read there was wrong (ghost, jump, frozen, no number) and was ' +
-  'taken out; filled or not, as the colour below says';
+const FAULT_MEANING = 'wrong samples (ghost, jump, frozen, not a number) that were removed; the ' +
+  'colour below shows whether they were filled';
 const MAX_ROWS = 300;
 
 export const isRemoved = ([, , fault]: Fault): boolean => fault !== 'swapped';
@@ -133,7 +133,7 @@ function repairTable(trial: MarkerTrial, figure: MarkerTrialFigures, fates: read
         style: `border-color: var(--fate-${colour})`}, what)],
       ['Sigma', ({sigma_mm}) => (sigma_mm === undefined ? '' : mm(sigma_mm)), 'number'],
       ['at most', ({worst_mm}) => (worst_mm === undefined ? '' : mm(worst_mm)), 'number'],
-      ['By, or how wrong', ({why}) => why],
+      ['Source or error', ({why}) => why],
     ], 'bounded'),
     more > 0 && el('p', {class: 'about'}, `${more} shorter ones are not listed here.`));
 }
@@ -143,16 +143,16 @@ export function samplesSection(player: Player, {fates}: MarkersData, trial: Mark
   const {markers} = trial;
   const touched = markers.filter(({runs, faults}) => runs.length + faults.length > 0);
   if (touched.length === 0) {
-    return [paragraph(`${plural(markers.length, 'marker')}, all there in every frame; nothing ` +
-      'was wrong with them.')];
+    return [paragraph(`${plural(markers.length, 'marker')}, all present in every frame, without ` +
+      'wrong samples.')];
   }
   const place = el('div');
   const show = (shown: readonly MarkerFates[]): void => place.replaceChildren(
     player.timeline([fateStrip(trial, figure, fates, shown)]).element);
   show(markers);
   return [
-    lead('Every row is a marker, with the share that was measured; every column a frame. Point ' +
-      'at it to read what was done.'),
+    lead('Every row is a marker, with its share of measured frames; every column is a frame. ' +
+      'Point at a gap or a fault for details.'),
     fateLegend(trial, fates),
     ...(touched.length === markers.length ? [] : [checkbox(
       `only the ${plural(touched.length, 'repaired marker')}`, false,

@@ -51,9 +51,9 @@ function headCards({kind, figures, fates, trials}: MarkersData): HTMLElement {
     card('Filled', percent((filled + predicted) / all), '',
       `${filled} samples from the other markers` +
       (kind === 'fit' ? `, ${predicted} from the skeleton` : '')),
-    card('Left empty', percent(empty / all), '', `${plural(empty, 'sample')} that cannot be known`),
+    card('Left empty', percent(empty / all), '', `${plural(empty, 'sample')} without an estimate`),
     card('Wrong', String(faults.length - swapped), 'runs',
-      `of samples: ${removed} taken out, ${swapped} swapped and put right`));
+      `of samples: ${removed} removed, ${swapped} swapped and corrected`));
 }
 
 export function headSection(data: MarkersData): void {
@@ -67,7 +67,7 @@ export function headSection(data: MarkersData): void {
     ...(isFit ? [plural(trials.length, 'trial')]
       : [`${first.frames} frames at ${Number(first.rate_hz.toFixed(3))} Hz`]),
     ...(isFit && figures.fit_rms_mm !== undefined
-      ? [`markers ${mm(figures.fit_rms_mm)} from the body when fitted`] : [])];
+      ? [`RMS ${mm(figures.fit_rms_mm)} between markers and body in the fit`] : [])];
   showHead(isFit ? figures.subject : first.file, kind, about.join(' · '), [
     isFit && pageWords(), headCards(data),
     notes([...figures.warnings, ...trials.flatMap((trial, i) =>
@@ -86,8 +86,8 @@ export function residualsSection(player: Player, {figures}: MarkersData,
   const segments = new Map(figures.labels.map(({label, segment}) => [label, segment ?? '']));
   const widest = Math.max(...figure.by_marker.map((marker) => marker.worst_mm), 1);
   return [
-    lead('How far measured markers are from where the solved body has them: the RMS of each ' +
-      'frame, and below of each marker, with a whisker to its worst frame.'),
+    lead('The RMS distance of measured markers from their places on the solved body, for ' +
+      'each frame in the graph and for each marker in the table. Whiskers end at the worst frame.'),
     player.timeline([], [{name: 'RMS', unit: 'mm', level: {value: level, name: `all ${mm(level)}`},
       curves: [listedCurve(perFrame(rms_mm), {colour: 'measured'}),
         ...(step > 1 ? [listedCurve(perFrame(worst_mm), {colour: 'repaired', width: 1})] : []),
@@ -105,10 +105,10 @@ export function residualsSection(player: Player, {figures}: MarkersData,
 }
 
 const ORIGIN_MEANING: Record<string, string> = {
-  movement: 'how markers on both sides moved about it',
-  landmarks: 'where it lies from landmarks near it',
+  movement: 'the movement of markers on both sides of it',
+  landmarks: 'its place relative to nearby landmarks',
   proportions: 'an average body of this size',
-  given: 'the subject that was given',
+  given: 'the given subject',
 };
 
 export function jointsSection({figures, lengths}: MarkersData): HTMLElement[] {
@@ -117,9 +117,9 @@ export function jointsSection({figures, lengths}: MarkersData): HTMLElement[] {
     ...evidence.get(length.joint)}));
   const origins = [...new Set(rows.map(({origin}) => origin))];
   return [
-    lead('The evidence for each joint centre, the uncertainty of its place in the segment before ' +
-      'it (sigma per coordinate), the angle through which it was turned in all trials, and its ' +
-      'distance from the joint before it.'),
+    lead('The evidence for each joint centre, the uncertainty of its place in the parent ' +
+      'segment (sigma per coordinate), its range of rotation in all trials, and its distance ' +
+      'from the parent joint.'),
     el('ul', {class: 'legend'}, ...origins.map((origin) => el('li', {},
       chip(origin, `${origin}: ${ORIGIN_MEANING[origin] ?? ''}`)))),
     table('Evidence for joint centres', rows, [
@@ -134,10 +134,10 @@ export function jointsSection({figures, lengths}: MarkersData): HTMLElement[] {
 }
 
 const USE_MEANING: Record<string, string> = {
-  named: 'used as what it is called',
-  found: 'its name says nothing; placed where it moves',
-  moved: 'moves with another segment than it is called after',
-  given: 'as in the subject that was given',
+  named: 'used according to its name',
+  found: 'name without a known meaning; placed by its movement',
+  moved: 'moves with another segment than its name suggests',
+  given: 'as in the given subject',
   'left-out': 'not used',
 };
 
@@ -146,7 +146,7 @@ export function labelsSection({kind, figures, trials}: MarkersData): HTMLElement
   const all = Math.max(figures.trials.reduce((sum, trial) => sum + trial.frames, 0), 1);
   const landmark = ({landmark: name}: Label): string => name?.replaceAll('_', ' ') ?? '–';
   const fitColumns: Column<Label>[] = [
-    ['Became', ({use, why}) => el('span', {class: `use-${use}`, title: USE_MEANING[use]},
+    ['Use', ({use, why}) => el('span', {class: `use-${use}`, title: USE_MEANING[use]},
       why ? `${use}: it ${why}` : use), '', ({use}) => use],
     ['Segment', ({segment}) => boneWords(segment ?? ''), '', ({segment}) => segment ?? ''],
     ['Place', ({sigma_mm}) => (sigma_mm === undefined ? '' : `± ${mm(sigma_mm)}`), 'number',
@@ -154,18 +154,18 @@ export function labelsSection({kind, figures, trials}: MarkersData): HTMLElement
     ['Strays', ({stray_mm}) => (stray_mm === undefined ? '' : mm(stray_mm)), 'number',
       ({stray_mm}) => stray_mm ?? -1],
   ];
-  const prefix = figures.prefix ? `, all behind “${figures.prefix}”` : '';
+  const prefix = figures.prefix ? `, all with the prefix “${figures.prefix}”` : '';
   const set = figures.label_set ? `The labels are ${figures.label_set}${prefix}. `
     : 'The set of the labels is unknown. ';
   return [
     lead(set + (isFit
-      ? 'The meaning and the use of each; the uncertainty of its place on the segment, and how ' +
-        'far it strays from there with skin and noise. Seen is the share of the frames of ' +
-        `${trials.length > 1 ? 'all trials' : 'the trial'}.`
-      : 'The meaning that each seems to have.')),
+      ? 'The meaning and the use of each label, the uncertainty of its place on the segment, ' +
+        'and its movement from there by soft tissue and noise. Seen is the share of the frames ' +
+        `of ${trials.length > 1 ? 'all trials' : 'the trial'}.`
+      : 'The meaning that each label appears to have.')),
     sortableTable('Labels', figures.labels, [
       ['Label', ({label}) => label, '', ({label}) => label],
-      ['Taken for', landmark, '', landmark],
+      ['Meaning', landmark, '', landmark],
       ...(isFit ? fitColumns : []),
       ['Seen', ({samples}) => percent(samples / all), 'number', ({samples}) => samples],
     ], 0),

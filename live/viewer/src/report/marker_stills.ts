@@ -71,7 +71,7 @@ function stillView(still: Still, data: MarkersData, view: View, {across, up}: Si
     const [cx, cy] = at(flat(place));
     if (onBody) parts.push(line(flat(place), flat(onBody), {class: 'off'}));
     const words = `${titles[m]}: ${data.fates[fate]}` +
-      (off === undefined ? ', not one of the body’s' : `, ${mm(off)} off`);
+      (off === undefined ? ', not part of the body' : `, ${mm(off)} off`);
     const look = off === undefined ? {class: 'stranger'}
       : fate < 2 ? {class: 'worn', style: `fill: ${scaleColour(off / WORST_COLOUR_MM)}`}
         : {class: 'filled', style: `stroke: var(--fate-${data.fates[fate]})`};
@@ -104,10 +104,10 @@ export function stillsSection(data: MarkersData, trial: MarkerTrial,
   figure: MarkerTrialFigures): HTMLElement[] {
   const size = stillSize(trial.stills);
   return [
-    lead('The skeleton and the markers at instants spread over the trial, and where markers are ' +
-      'furthest from the body. Thin lines lead from a marker to its place on the body; rings are ' +
-      'markers that were filled, thin grey rings those that do not belong to the body. Point at ' +
-      'a marker to read its name.'),
+    lead('The skeleton and the markers at several instants of the trial, and at the instants ' +
+      'with the largest distances of markers from the body. Thin lines connect a marker with ' +
+      'its place on the body. Rings are filled markers; thin grey rings are markers that do not ' +
+      'belong to the body. Point at a marker to read its name.'),
     scaleKey('off the body', `${WORST_COLOUR_MM} mm`),
     el('div', {class: 'row'}, sourceLegend(true)),
     // A lying subject makes wide pictures.

@@ -52,8 +52,8 @@ export function picturesSection(player: Player, {pictures}: TrialData,
         byId('motion').scrollIntoView();
       }}, 'show in the viewer'), ' ', pageLink(name, picture.frame, 'on the page')))));
   return [
-    lead('The solved skeleton, seen through the calibrated cameras: where it lies on the body, ' +
-      'cameras, subject and motion agree.'),
+    lead('The solved skeleton, drawn into the pictures of the cameras. Cameras, subject and ' +
+      'motion are consistent if it lies on the body.'),
     el('div', {class: 'row'}, sourceLegend(true),
       checkbox('Draw over', true, (on) => { all.classList.toggle('bare', !on); },
         {class: 'toggle'})),

@@ -79,7 +79,8 @@ export class RigViewer {
     this.stage = new Stage(this.theme, {beforePicture: () => {}, afterPicture: () => {},
       reset: () => this.frame(), trouble: () => {}}, {drawing: reportDrawing(), scrolled: true,
       pyramid_m: 0.16 * size,
-      label: `Cameras and the ${target} in three dimensions. Drag turns, plus and minus zoom.`});
+      label: `Three-dimensional view of the cameras and the ${target}. Drag to rotate, press ` +
+        'plus and minus to zoom.'});
     this.stage.renderer.canvas.setAttribute('role', 'img');
     const height_m = has_floor ? 0
       // Without a known floor the grid is below everything.
@@ -99,8 +100,8 @@ export class RigViewer {
     this.root = el('div', {class: 'viewer rig'}, this.stage.element,
       el('div', {class: 'controls'}, toggle(target === 'wand' ? 'Wand' : 'Board', places),
         toggle('Uncertainty', uncertainty), button({onclick: () => this.frame()}, 'Reset view'),
-        el('span', {class: 'clock'}, 'Drag turns, shift drag moves, the wheel zooms once the ' +
-          'picture was clicked.')));
+        el('span', {class: 'clock'}, 'Drag rotates, shift drag pans, the wheel zooms after a ' +
+          'click into the picture.')));
     this.paint();
     this.theme.onChange(() => this.paint());
     this.listenToKeys();
@@ -146,12 +147,12 @@ export function layoutSection(figures: RigFigures, {scale, root}: RigViewer): HT
   const floor = figures.board_on_floor
     ? ' The green one, crossed out, is the board on the floor.'
     : figures.has_floor ? ' The grid is the floor.'
-      : ' Nothing showed the floor: the grid is only a help to the eye.';
+      : ' The floor was not detected: the grid is only for orientation.';
   return [
-    lead('Check that every camera stands and looks as in the room. Orange outlines are where ' +
-      `the ${shownTarget(figures)} was.${floor} Rings around a camera are the uncertainty of ` +
-      'its place (one sigma), ' +
-      (scale > 1 ? `drawn ${scale} times too large.` : 'as large as it is.')),
+    lead('Check that the position and direction of every camera are as in the room. Orange ' +
+      `outlines are places of the ${shownTarget(figures)}.${floor} Rings around a camera are ` +
+      'the uncertainty of its position (one sigma), ' +
+      (scale > 1 ? `enlarged ${scale} times.` : 'drawn to scale.')),
     root,
   ];
 }

@@ -47,11 +47,11 @@ export function camerasSection({cameras, rms_px}: CalibrationFigures, trial: Tri
   const [subject] = trial ? trial.bodies.map((body) => new RecordedBody(body, true)) : [];
   const way = Array.from({length: subject?.frames ?? 0}, (_, frame) => subject.recorded(frame, 0));
   return [
-    lead(`The board lies ${px(rms_px)} from where the cameras expect it. Coverage is the share ` +
-      'of the picture in which it was shown: lenses are known only there. ',
+    lead(`The RMS distance of the board from its expected place is ${px(rms_px)}. Coverage is ` +
+      'the share of the picture in which the board was seen; the lens is calibrated only there. ',
     // `marey view` serves no file other than its own report.
     hasPage && !SERVED && el('a', {href: './calibration.html'},
-      'More in the calibration’s own page')),
+      'Details in the calibration report')),
     table('Calibration of every camera', cameras, [
       ['Camera', ({name}) => name],
       ['Picture', (c) => `${c.width_px} × ${c.height_px}`, 'number'],
@@ -63,9 +63,9 @@ export function camerasSection({cameras, rms_px}: CalibrationFigures, trial: Tri
       ['Views', (c) => String(c.views), 'number'],
     ]),
     el('div', {class: 'rooms'},
-      roomView('From above, in metre squares; the line is the way of the hips',
+      roomView('From above, in metre squares; the line is the path of the hips',
         (p) => [p[0], p[2]], cameras, way, false),
-      roomView('From the front; the floor is the thick line',
+      roomView('From the front; the thick line is the floor',
         (p) => [p[0], -p[1]], cameras, way, true)),
   ];
 }

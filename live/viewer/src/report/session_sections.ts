@@ -39,16 +39,16 @@ function summaryCards(summary: Summary): HTMLElement {
     gradeOf(LIMITS[kind], worst[kind]?.value ?? 0);
   return cards(
     card('Trust', poor.length === 0 ? 'yes' : 'no', '', poor.length === 0
-      ? 'no check speaks against these results'
-      : `${plural(poor.length, 'reason')} not to: ${poor[0]}`, trust),
+      ? 'no check found a severe problem'
+      : `${plural(poor.length, 'severe problem')}: ${poor[0]}`, trust),
     graded('Solved', fixed(summary.solved_percent, 1), '%',
       `${summary.frames_solved} of ${plural(summary.frames, 'frame')}`, 'solved_percent',
       gradeOf(LIMITS.solved_percent, summary.solved_percent)),
     graded('Cameras', fixed(summary.calibration_rms_px, 2), 'px',
-      'how far the board is from where the cameras expect it', 'calibration_px',
+      'RMS distance of the board from its expected place', 'calibration_px',
       gradeOf(LIMITS.calibration_px, summary.calibration_rms_px)),
     graded('Motion', fixed(summary.solve_rms_px, 2), 'px',
-      'how far tags are from where the solved body has them' +
+      'RMS distance of tags from their places on the solved body' +
         worstWords(summary, 'camera', 'px', 2) + worstWords(summary, 'frame', 'px', 2), 'solve_px',
       worstGrade(trust, gradeOf(LIMITS.solve_px, summary.solve_rms_px), worstOf('camera'),
         worstOf('frame'))),
@@ -95,7 +95,7 @@ export function subjectSection(subject: SubjectFigures): HTMLElement[] {
     ]),
     el('h3', {}, 'Tags on the body'),
     lead(`${plural(tags.length, 'tag is', 'tags are')} placed` + (unplaced.length === 0 ? '.'
-      : `; seen too rarely to be placed: ${unplaced.join(', ')}.`)),
+      : `; seen too rarely to be located: ${unplaced.join(', ')}.`)),
     fold('All tags as a table', table('Tags of the subject', tags, [
       ['Tag', ({id}) => String(id)],
       ['Segment', ({segment}) => boneWords(segment)],
@@ -120,13 +120,14 @@ export function avatarsSection(trials: readonly TrialFigures[]): HTMLElement[] {
       ...files.flatMap((file) => [fileLink(file), ' ']))],
     ['Foot slide before', (row) => optional(row.slide_before_cm_per_s, 2, 'cm/s'), 'number'],
     ['after', (row) => optional(row.slide_after_cm_per_s, 2, 'cm/s'), 'number'],
-    ['Into the floor', (row) => optional(row.penetration_mm, 1, 'mm'), 'number'],
+    ['Floor penetration', (row) => optional(row.penetration_mm, 1, 'mm'), 'number'],
   ];
   const isSome = trials.some(({avatars}) => avatars.length > 0);
   return [
-    lead(isSome ? 'The motion on every body, ready for an animation program. Foot slide is how ' +
-      'fast planted feet still move: before, with the joint rotations copied; after, as written.'
-      : 'The subject’s own motion. Give --avatar to put it on a character.'),
+    lead(isSome ? 'The motion on every body, as files for animation programs. Foot slide is the ' +
+      'speed of feet that should stand still: before, with copied joint rotations; after, in ' +
+      'the written file.'
+      : 'The motion of the subject. Use --avatar to transfer it to a character.'),
     table('Files and avatars', rows, isSome ? columns : columns.slice(0, 3)),
   ];
 }
@@ -135,8 +136,8 @@ export function timingsSection({timings, summary}: ReportFigures): HTMLElement[]
   const longest = Math.max(...timings.map(({seconds}) => seconds), 1e-9);
   return [
     lead(`${duration(summary.processing_s)} for ${duration(summary.recorded_s)} of recording: ` +
-      `${fixed(summary.times_real_time, 1)} × real time. Results of an earlier run that were ` +
-      'kept take almost no time.'),
+      `${fixed(summary.times_real_time, 1)} × real time. Stages that reuse results of an ` +
+      'earlier run take almost no time.'),
     table('Time by stage', timings, [
       ['Stage', ({stage}) => stage],
       ['Share', ({seconds}) => bar(seconds, null, longest)],

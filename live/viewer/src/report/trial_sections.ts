@@ -28,9 +28,9 @@ export function reprojectionSection(player: Player, {frame_rms_px: values}: Tria
   figures: TrialFigures): HTMLElement[] {
   const level = figures.rms_px;
   return [
-    lead('The distance between where a camera saw the corners of the tags and where the solved ' +
-      'motion puts them. Steady is good; a hump marks moments to look at. Click to see them in ' +
-      'the viewer. ', worstFrame(values, figures)),
+    lead('The distance of detected tag corners from their places in the solved motion. A steady ' +
+      'curve is good; peaks mark moments to check. Click to see them in the viewer. ',
+      worstFrame(values, figures)),
     player.timeline([], [{name: 'RMS', unit: 'px', level: {value: level, name: 'RMS'}, curves: [
       // 0: no tag was seen.
       listedCurve(values.map((value) => value || null), {colour: 'measured'}),
@@ -103,16 +103,16 @@ export function tagsSection(player: Player, {tags}: TrialData, figures: TrialFig
     Math.max(a, b), 0)));
   const lost = gaps.reduce((sum, gap) => sum + gap.duration_s, 0);
   return [
-    lead('Every row is a tag, every column a frame. The darker, the more cameras saw it: two or ' +
-      'more fix a tag well, one still does, none leaves a gap.'),
+    lead('Every row is a tag, every column is a frame. Darker means that more cameras saw the ' +
+      'tag: two or more locate it well, one locates it less accurately, none leaves a gap.'),
     el('ul', {class: 'legend'}, ...Array.from({length: most + 1}, (_, i) => el('li', {},
       el('span', {class: 'swatch', style: `background: ${seenColour(i, most)}`}),
       i === 0 ? ' unseen' : ` ${plural(i, 'camera')}`))),
     player.timeline(tagStrips(tags, most)).element,
     el('h3', {}, 'Gaps'),
     ...(gaps.length === 0 ? [paragraph('None: every segment was seen in every frame.')] : [
-      lead(`${plural(gaps.length, 'time')} a segment with tags was out of sight, ` +
-        `${duration(lost)} in all. What was not seen is marked so in every file that marey writes.`),
+      lead(`A segment with tags was not seen ${plural(gaps.length, 'time')}, ${duration(lost)} ` +
+        'in total. Every file that marey writes marks such frames of a segment as not seen.'),
       sourceLegend(false, SOURCES.slice(1)),
       player.timeline([{...sourceStrip(gapRows(figures)), base: 'card'}]).element,
       fold('All gaps as a table', gapTable(gaps, name))]),
@@ -123,8 +123,8 @@ export function jointsSection({joints}: TrialFigures): HTMLElement[] {
   if (joints.length === 0) return [paragraph('No joints were solved.')];
   const highest = Math.max(...joints.map((joint) => joint.p95_sigma_mm), 1);
   return [
-    lead('How well each joint centre is known, as the solver estimates: half of the frames have ' +
-      'a smaller sigma than the bar, 95 % a smaller one than the whisker. The widest ends at ' +
+    lead('The uncertainty of each joint centre, as estimated by the solver: the bar is the ' +
+      'median sigma of all frames, the whisker the 95th percentile. The longest whisker ends at ' +
       `${fixed(highest, 0)}\u00a0mm.`),
     el('div', {class: 'row'}, sourceLegend(false)),
     table('Uncertainty of every joint centre', joints, [

@@ -37,7 +37,7 @@ export class Transport {
     }, {'aria-label': 'Speed'});
     const back = this.button('step', 'One frame back (left arrow)', () => this.step(-1));
     back.append('‹');
-    const on = this.button('step', 'One frame on (right arrow)', () => this.step(1));
+    const on = this.button('step', 'One frame forward (right arrow)', () => this.step(1));
     on.append('›');
     this.element = el('div', {class: 'transport'}, back, this.playButton, on, this.liveButton,
       this.clock, el('span', {class: 'spring'}), speed, this.loopButton, this.foldButton);
