@@ -26,7 +26,7 @@ constexpr double kWithin = 0.97;  // Share of a trunk's vertices within its brea
 constexpr std::array kTrunkParts{P::kPelvis, P::kAbdomen, P::kChest};
 
 // Returns the part of a limb or head that a marked bone carries.
-std::optional<P> part_of(B bone) {
+std::optional<P> volume_part_of(B bone) {
   switch (bone) {
     case B::kHead:
       return P::kHead;
@@ -72,7 +72,7 @@ std::vector<SkinOwner> skin_owners(const Skeleton& skeleton, const BodyMap& map)
       owners[i] = {Belongs::kTrunk, P::kPelvis};
     } else if (!joint.bone) {
       if (joint.parent) owners[i] = owners[index(*joint.parent)];
-    } else if (const auto part = part_of(*joint.bone)) {
+    } else if (const auto part = volume_part_of(*joint.bone)) {
       owners[i] = {Belongs::kPart, *part};
     }
   }
