@@ -49,8 +49,7 @@ TEST(UsageError, NamesTheNearestOptionOfAMistypedOne) {
 }
 
 TEST(UsageError, NamesAMissingArgument) {
-  expect_usage_error({"process", "session.toml"},
-                     {"--out is missing", "process --help"});
+  expect_usage_error({"process", "session.toml"}, {"--out is missing", "process --help"});
   expect_usage_error({"process", "--out", "x"}, {"SESSION is missing"});
 }
 
