@@ -34,6 +34,7 @@
 #include "app/shell/usage_error.h"
 #include "app/shell/version.h"
 #include "app/view/view_commands.h"
+#include "core/base/printable.h"
 
 namespace marey::app {
 namespace {
@@ -132,7 +133,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr,
                  "error: internal: %s. Next: report this with the command that you "
                  "ran.\n",
-                 error.what());
+                 marey::printable(error.what()).c_str());
     return static_cast<int>(marey::app::Exit::kInternal);
   }
 }

@@ -98,9 +98,9 @@ Error plain_error(const std::string& path, V4l2Step step, int number) {
 }  // namespace
 
 Error device_error(const std::string& path, V4l2Step step, int number) {
-  Error error = plain_error(path, step, number);
-  error.os_error = number;
-  return error;
+  Error out = plain_error(path, step, number);
+  out.os_error = number;
+  return out;
 }
 
 }  // namespace marey::capture

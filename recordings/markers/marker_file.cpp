@@ -4,6 +4,7 @@
 
 #include "core/base/extension.h"
 #include "core/base/input_file.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/markers/c3d_markers.h"
 #include "recordings/markers/trc.h"
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/input_file.h"
+#include "recordings/base/sqlite.h"
 #include "recordings/takes/live_take.h"
 #include "recordings/takes/live_take_schema.h"
 #include "recordings/takes/view_bytes.h"

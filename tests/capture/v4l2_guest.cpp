@@ -157,7 +157,7 @@ void check_wraps() {
   const Take numbers = take_from(small(kFirst), 200);
   set_vivid(kFirst, "Wrap Sequence Number", 0);
   check(numbers.wrapped && numbers.gaps == 0 && numbers.dropped == 0,
-        "a sequence number that goes round is no loss",
+        "a sequence number that wraps around is not a loss",
         numbers.text());
   set_vivid(kFirst, "Wrap Timestamp", 1);
   const Take stamps = take_from(small(kFirst), 30);
@@ -291,7 +291,7 @@ void check_replug() {
   unplug.join();
   const double noticed_s = since(unplugged, camera.lost);
   check(noticed_s < 1.0 && ::access(kFirst, F_OK) != 0,
-        "that a device file is gone is noticed within 1 s",
+        "a removed device file is noticed within 1 s",
         std::to_string(noticed_s) + " s");
   check(!camera.back, "it stays lost while it is out");
   const Timestamp replugged = now();
@@ -327,10 +327,10 @@ void check_mjpg() {
   }
   check(device->settings().format == PixelFormat::kMjpg && all.frames == 150 &&
             wrong == 0 && all.damaged == 0,
-        "every MJPG frame is byte for byte what was fed",
+        "every MJPG frame has the bytes that were sent",
         all.text() + ", " + std::to_string(wrong) + " wrong");
   check(all.dropped == 0 && all.gaps == 0 && all.last_sequence > 150,
-        "that the stream began before is no loss",
+        "frames from before the first read are not a loss",
         "last number " + std::to_string(all.last_sequence));
   check(!device->settings().monotonic_clock && all.arrival_times == 0,
         "stamps without a promise are taken where they make sense");

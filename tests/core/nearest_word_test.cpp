@@ -30,6 +30,19 @@ TEST(Suggestion, NamesTheFirstOfEquals) {
   EXPECT_EQ(suggestion("cam2", kTwins), "perhaps you mean \"cam0\"");
 }
 
+TEST(MeantWord, IsNearOrHasTheSameBeginning) {
+  constexpr std::array<std::string_view, 4> kOptions{
+      "out", "vmc-rest", "vmc-mtu", "json"};
+  EXPECT_EQ(meant_word("outt", kOptions), "out");
+  EXPECT_EQ(meant_word("vmc-restt", kOptions), "vmc-rest");
+  EXPECT_EQ(meant_word("output", kOptions), "out");
+  EXPECT_EQ(meant_word("vmc", kOptions), "vmc-rest");
+  EXPECT_EQ(meant_word("frobnicate", kOptions), std::nullopt);
+  EXPECT_EQ(meant_word("j", kOptions), std::nullopt);
+  EXPECT_EQ(meant_word("vmc-target", kOptions), std::nullopt);
+  EXPECT_EQ(meant_word("out", {}), std::nullopt);
+}
+
 TEST(NearestWords, AreInOrderOfNearness) {
   const auto near = nearest_words("colums", kWords, 2);
   ASSERT_EQ(near.size(), 2U);

@@ -55,7 +55,7 @@ std::optional<std::string> bandai_walk() {
 TEST(Adapt, SupportsOfACapturedWalkAreExactWithinLimits) {
   const AdaptScene scene;
   const auto walk = bandai_walk();
-  if (!walk) GTEST_SKIP() << "the captured walk is not at hand";
+  if (!walk) GTEST_SKIP() << "the captured walk is missing";
   scene.file("walk.bvh", *walk);
   const ProgramRun run = scene.adapt({});
   EXPECT_EQ(run.exit_code, 0) << run.err;

@@ -303,7 +303,7 @@ TEST(Adapt, ReportsMissedConstraints) {
   }
   const Motion motion = scene.motion();
   EXPECT_LT(slide_m(motion, scene.walk().feet[0].heel, B::kLeftFoot), 1e-4)
-      << "a support comes before any wish";
+      << "a support has priority over other constraints";
   // A blend has no required precision. The program reports the misses, and ends with 0.
   const ProgramRun blend = scene.adapt({"--constraints", set, "--control", "blend"});
   EXPECT_EQ(blend.exit_code, 0) << blend.err;

@@ -71,7 +71,7 @@ TEST(LoadCharacter, TakesTheLengthsAndTheMassOfASubject) {
 TEST(LoadCharacter, TakesTheSkeletonOfAnAvatar) {
   const std::filesystem::path avatar =
       marey::testing::shared_data() / "avatars/vrm/cryptovoxels.vrm";
-  if (!std::filesystem::exists(avatar)) GTEST_SKIP() << "the avatars are not there";
+  if (!std::filesystem::exists(avatar)) GTEST_SKIP() << "the avatars are missing";
   const ScratchFolder folder;
   CharacterSpec spec;
   spec.name = "Voxel";

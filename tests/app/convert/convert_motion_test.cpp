@@ -149,7 +149,7 @@ TEST(ConvertMotion, ChangesTheRate) {
 
 TEST(ConvertMotion, FindsTheSkeletonOfAnAcclaimMotion) {
   const fs::path trial = marey::testing::shared_data() / "mocap/cmu_asfamc/02_01.amc";
-  if (!fs::exists(trial)) GTEST_SKIP() << trial << " is not here";
+  if (!fs::exists(trial)) GTEST_SKIP() << trial << " is missing";
   const ScratchFolder folder;
   const ProgramRun run = convert(trial, folder / "a.bvh");
   ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -174,7 +174,7 @@ TEST(ConvertMotion, FindsTheSkeletonOfAnAcclaimMotion) {
 // hips, so that the legs are at the file's places.
 TEST(ConvertMotion, IdentifiesTheBonesForAVrmaOrADialect) {
   const fs::path trial = marey::testing::shared_data() / "mocap/cmu_asfamc/02_01.amc";
-  if (!fs::exists(trial)) GTEST_SKIP() << trial << " is not here";
+  if (!fs::exists(trial)) GTEST_SKIP() << trial << " is missing";
   const ScratchFolder folder;
   ASSERT_EQ(convert(trial, folder / "a.bvh").exit_code, 0);
   const ProgramRun run = convert(trial, folder / "a.vrma");

@@ -77,14 +77,14 @@ TEST(VideoFeed, GivesEveryFrameAtItsInstantAndEnds) {
   const auto feed = open({.name = "left", .path = make_video(folder, 8), .buffers = 8});
   EXPECT_EQ(feed->settings().width_px, kWidth);
   EXPECT_EQ(feed->settings().format, capture::PixelFormat::kGrey);
-  EXPECT_FALSE(feed->next(milliseconds(1))) << "before it was begun";
+  EXPECT_FALSE(feed->next(milliseconds(1))) << "the feed was not started";
   const Timestamp begin = now() + milliseconds(20);
   feed->begin_at(begin);
   for (int k = 0; k < 8; ++k) {
     const auto frame = feed->next(milliseconds(60000));
     ASSERT_TRUE(frame) << k;
     EXPECT_EQ(frame->time, begin + milliseconds(10 * k));
-    EXPECT_GE(now(), frame->time) << "no camera is ahead of its time";
+    EXPECT_GE(now(), frame->time) << "no frame is delivered before its time";
     EXPECT_NEAR(grey_of(*frame), 20 * k, 2);
     EXPECT_EQ(frame->sequence, static_cast<std::uint32_t>(k));
     EXPECT_EQ(frame->dropped_before, 0);

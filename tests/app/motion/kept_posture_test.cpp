@@ -201,7 +201,7 @@ TEST_P(EveryBody, KeepsThePostureOfAWalkAKickAndADance) {
         shared("mocap/bandai/dataset-1_" + std::string(clip) + "_normal_001.bvh");
     if (!std::filesystem::exists(source_file) ||
         !std::filesystem::exists(shared(body.file))) {
-      GTEST_SKIP() << "the files are not there";
+      GTEST_SKIP() << "the files are missing";
     }
     SCOPED_TRACE(clip);
     const ScratchFolder folder;
@@ -268,7 +268,7 @@ TEST_P(EveryBody, FacesTheSameWayInEveryFile) {
   const auto source_file = shared("mocap/bandai/dataset-1_walk_normal_001.bvh");
   if (!std::filesystem::exists(source_file) ||
       !std::filesystem::exists(shared(body.file))) {
-    GTEST_SKIP() << "the files are not there";
+    GTEST_SKIP() << "the files are missing";
   }
   const ScratchFolder folder;
   const auto source = read_motion(source_file);

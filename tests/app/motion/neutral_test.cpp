@@ -32,7 +32,7 @@ TEST(Neutral, HasOneNeutralForAllClipsOfASkeleton) {
   for (const char* clip : {"walk", "kick", "dance-short"}) {
     const auto file =
         neutral_file("mocap/bandai/dataset-1_" + std::string(clip) + "_normal_001.bvh");
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << "the files are not there";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "the files are missing";
     auto raw = read_raw_body(file);
     ASSERT_TRUE(raw);
     clips.push_back(std::move(raw->motion));
@@ -70,7 +70,7 @@ TEST(Neutral, HasOneNeutralForAllClipsOfASkeleton) {
 
 TEST(Neutral, UsesTheRequestedNeutral) {
   const auto file = neutral_file("mocap/bandai/dataset-1_kick_normal_001.bvh");
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the file is not there";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the file is missing";
   const auto with = [&](const std::string& word) {
     BodyFile body(file);
     const auto neutral = read_neutral(word);
@@ -109,7 +109,7 @@ TEST(Neutral, UsesTheRequestedNeutral) {
 // A remark reports that the rest stands. No remark denies that it is a standing posture.
 TEST(Neutral, RemarksOnATPoseThatReplacesARest) {
   const auto file = neutral_file("mocap/cmu_bvh_tmoco/rest.bvh");
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the file is not there";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the file is missing";
   BodyFile body(file);
   body.neutral = *read_neutral("t-pose");
   const auto read = read_body(body);

@@ -67,7 +67,7 @@ void expect_stands(const Skeleton& body) {
 
 TEST_P(EveryFile, IsMappedAndStands) {
   const FileCase& c = GetParam();
-  if (!std::filesystem::exists(body_file(c.file))) GTEST_SKIP() << "it is not there";
+  if (!std::filesystem::exists(body_file(c.file))) GTEST_SKIP() << "it is missing";
   const auto body = read_body(body_file(c.file));
   ASSERT_TRUE(body) << body.error().message();
   EXPECT_EQ(body->bones.scheme, c.scheme);
@@ -263,7 +263,7 @@ TEST(ReadBody, WritesAvatarsBackInTheirOwnFrame) {
   const auto avatar = body_file("avatars/khronos/cesium_man.gltf");
   const auto source = body_file("mocap/bvh_python/test_freebvh.bvh");
   if (!std::filesystem::exists(avatar) || !std::filesystem::exists(source)) {
-    GTEST_SKIP() << "the files are not there";
+    GTEST_SKIP() << "the files are missing";
   }
   const ScratchFolder folder;
   const auto motion = read_motion(source);

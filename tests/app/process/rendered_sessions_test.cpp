@@ -209,7 +209,7 @@ void expect_refused(const Outcome& outcome, int exit_code, const std::string& re
 // Measured: median 1.8, 95 % within 7.6, worst joint 7.2 mm of the whole walk.
 TEST(RenderedSecond, IsRightAndWithFewerCamerasRightOrRefused) {
   RenderedSession second("second", kShared / "blender/second/session.toml");
-  if (!second.is_here()) GTEST_SKIP() << "skipped: blender/second is not here";
+  if (!second.is_here()) GTEST_SKIP() << "skipped: blender/second is missing";
   const Outcome whole = second.process(kAll);
   EXPECT_EQ(whole.run.exit_code, 0) << whole.run.err;
   EXPECT_LT(whole.median_mm, 3.0);
@@ -223,7 +223,7 @@ TEST(RenderedSecond, IsRightAndWithFewerCamerasRightOrRefused) {
 
 TEST(RenderedDev, WithFewerCamerasIsRightOrRefused) {
   RenderedSession dev("dev", kDevSession);
-  if (!dev.is_here()) GTEST_SKIP() << "skipped: blender/dev is not here";
+  if (!dev.is_here()) GTEST_SKIP() << "skipped: blender/dev is missing";
   expect_refused(dev.process({"cam0", "cam2", "cam3"}), 4, "rightHand");
   expect_refused(dev.process({"cam0", "cam1"}), 4, "leftHand");
   expect_refused(dev.process({"cam1", "cam3"}), 4, "leftHand");

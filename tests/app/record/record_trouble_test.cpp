@@ -231,7 +231,7 @@ struct Odd {
 TEST(RecordTrouble, ReportsInvalidDriverSettingsAndLeavesNoFiles) {
   const ScratchFolder folder;
   for (const Odd& odd : {Odd{"no width", PixelFormat::kMjpg, 0, 48, 0},
-                         Odd{"less than no height", PixelFormat::kMjpg, 64, -48, 0},
+                         Odd{"a negative height", PixelFormat::kMjpg, 64, -48, 0},
                          Odd{"odd width", PixelFormat::kYuyv, 63, 48, 128},
                          Odd{"odd height", PixelFormat::kNv12, 64, 47, 64},
                          Odd{"no stride", PixelFormat::kGrey, 64, 48, 0},

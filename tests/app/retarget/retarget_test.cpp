@@ -317,7 +317,7 @@ TEST(Retarget, ReportsEveryBodyWithItsFiguresContactsAndPictures) {
   EXPECT_EQ(count_of(page, "<svg class=\"bars\""), 2U);
   EXPECT_EQ(count_of(page, "bad.glb: this is neither"), 1U);
   EXPECT_EQ(page.find("<script"), std::string::npos);
-  EXPECT_EQ(page.find("http:"), std::string::npos) << "it needs nothing else";
+  EXPECT_EQ(page.find("http:"), std::string::npos) << "it loads no other files";
   const std::string body = page.substr(page.find("<main>"));
   EXPECT_EQ(body.find("nan"), std::string::npos);
   EXPECT_EQ(body.find("inf"), std::string::npos);

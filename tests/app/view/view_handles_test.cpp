@@ -113,7 +113,7 @@ TEST(ViewHandles, KeepTheConstraintsOfAFile) {
 TEST(ViewHandles, HaveNothingOfAPageThatSixteenOthersFollowed) {
   auto handles = ViewHandles::make(standing(), {});
   ASSERT_TRUE(handles);
-  EXPECT_FALSE(handles->adapted(kPage)) << "it has dragged nothing";
+  EXPECT_FALSE(handles->adapted(kPage)) << "this page drags no handle";
   for (int page = 1; page <= 17; ++page) {
     const auto client = static_cast<ClientId>(page);
     ASSERT_TRUE(handles->drag(client, drag("head", {0.0, 1.5, 0.1}, kFirst)));

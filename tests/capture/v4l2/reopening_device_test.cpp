@@ -81,7 +81,8 @@ TEST_F(Reopening, NoticesAnUnplugWithinASecond) {
     EXPECT_EQ(device.status().state, CameraState::kLost);
     ASSERT_TRUE(device.status().trouble);
     EXPECT_NE(device.status().trouble->next.find("same port"), std::string::npos);
-    EXPECT_EQ(kernel_.open_files, 0) << "a held device could not come back";
+    EXPECT_EQ(kernel_.open_files, 0)
+        << "an open device file would prevent the reconnection";
   }
 }
 
@@ -155,7 +156,7 @@ TEST_F(Reopening, ReportsSilenceOnceAndReopensASilentCamera) {
   run(device, seconds(5));
   EXPECT_EQ(device.status().restarts, 1);
   EXPECT_EQ(reported_states_, std::vector<std::string>{"silent"})
-      << "once, not at every restart";
+      << "only once, not after each restart";
   camera().frames = frames_from(0, 100);
   run(device, seconds(1));
   EXPECT_EQ(reported_states_, (std::vector<std::string>{"silent", "streaming"}));

@@ -119,7 +119,7 @@ TEST_F(V4l2Frames, ThatAreNeverGoodAreNotSkippedForEver) {
   camera_.frames = frames_from(0, 10);
   for (FakeFrame& frame : camera_.frames) frame.first_bytes[0] = 0;
   V4l2Device device = open();
-  EXPECT_EQ(count(device).damaged, 6) << "of ten, but for the four first";
+  EXPECT_EQ(count(device).damaged, 6) << "of ten, without the first four";
 }
 
 TEST_F(V4l2Frames, WithTheErrorFlagOrTooFewBytesAreDamaged) {

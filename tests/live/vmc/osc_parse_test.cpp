@@ -106,7 +106,7 @@ const std::vector<Broken>& broken() {
       {"a text without an end", "/ab\0,s\0\0abcd"s},
       {"a blob longer than the packet", "/ab\0,b\0\0\0\0\0\5abcd"s},
       {"a blob as long as all memory", "/ab\0,b\0\0\xff\xff\xff\xff"s},
-      {"a blob whose padding lacks", "/ab\0,b\0\0\0\0\0\3abc"s},
+      {"a blob without its padding", "/ab\0,b\0\0\0\0\0\3abc"s},
       {"half a bundle's head", "#bundle\0\0\0\0\0"s},
       {"a bundle with half a size", kHead + "\0\0"s},
       {"a bundle with an empty element", kHead + "\0\0\0\0"s},

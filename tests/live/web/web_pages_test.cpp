@@ -207,7 +207,7 @@ TEST(WebPages, AreClosedAfterAMalformedMessage) {
   };
   const Case cases[] = {
       {"not masked", std::string("\x81\x02hi", 4)},
-      {"an opcode that is not", std::string("\x83\x80mask", 6)},
+      {"an undefined opcode", std::string("\x83\x80mask", 6)},
       {"reserved bits", std::string("\xf1\x80mask", 6)},
       {"too large", std::string("\x81\xfe\x40\x01mask", 8)},
       {"far too large", std::string("\x81\xff\x7f\xff\xff\xff\xff\xff\xff\xff mask", 14)},

@@ -94,7 +94,7 @@ TEST(AssessSubject, NamesAFootThatFitsInTwoWays) {
   foot.sightings = 4;
   EXPECT_NE(fit.warning_text().find("\"leftFoot\" fit in two ways"), std::string::npos);
   foot.runner_up_m = 0.02;
-  EXPECT_EQ(fit.warning_text(), "") << "both ways are one answer";
+  EXPECT_EQ(fit.warning_text(), "") << "both fits have the same result";
   foot = {false, 0.0, 100, 0.0, 0.0};
   EXPECT_NE(fit.warning_text().find("no place of the tags on segment \"leftFoot\""),
             std::string::npos);

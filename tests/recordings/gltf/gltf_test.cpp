@@ -159,7 +159,7 @@ TEST(ReadCharacter, ReadsRealAvatars) {
       {"khronos/cesium_man.gltf", 19, 1.507},
       {"vrm/cryptovoxels.vrm", 57, 1.49}};
   for (const Expected& expected : avatars) {
-    if (!exists(avatar(expected.file))) GTEST_SKIP() << expected.file << " is not here";
+    if (!exists(avatar(expected.file))) GTEST_SKIP() << expected.file << " is missing";
     const auto read = read_character(avatar(expected.file));
     ASSERT_TRUE(read) << read.error().message();
     EXPECT_EQ(read->skeleton.joints.size(), expected.joints) << expected.file;
@@ -202,7 +202,7 @@ TEST(WriteRetargeted, MovesRealAvatarsAndKeepsTheirMesh) {
                            "kaykit/manny_med_mod.gltf",
                            "khronos/cesium_man.gltf",
                            "vrm/cryptovoxels.vrm"}) {
-    if (!exists(avatar(file))) GTEST_SKIP() << file << " is not here";
+    if (!exists(avatar(file))) GTEST_SKIP() << file << " is missing";
     const auto before = read_character(avatar(file));
     ASSERT_TRUE(before) << before.error().message();
     Motion motion = wild_motion(before->skeleton, 20);

@@ -220,7 +220,7 @@ TEST(Vrma, AppliesRotationsOfHelperJointsToTheBonesBelow) {
 // A file of three-vrm, of 51 bones: marey's bones keep their positions.
 TEST(Vrma, KeepsARealOneWhenWrittenAgain) {
   const auto path = marey::testing::shared_data() / "avatars/threevrm/test.vrma";
-  if (!exists(path)) GTEST_SKIP() << path << " is not here";
+  if (!exists(path)) GTEST_SKIP() << path << " is missing";
   const ScratchFolder folder;
   const auto real = read_character(path);
   ASSERT_TRUE(real && real->motion);

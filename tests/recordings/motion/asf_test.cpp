@@ -208,7 +208,7 @@ TEST(Asf, MovesTheRootForABoneTranslationAndIgnoresNone) {
 // An independent reader of the same files gives the same result for every bone.
 TEST(Asf, AgreesWithAnotherReaderOnRealTrials) {
   const auto asf = real_asf("cmu_asfamc/02.asf");
-  if (!std::filesystem::exists(asf)) GTEST_SKIP() << asf << " is not here";
+  if (!std::filesystem::exists(asf)) GTEST_SKIP() << asf << " is missing";
   const auto skeleton = read_asf(asf);
   ASSERT_TRUE(skeleton) << skeleton.error().message();
   const auto other = testing::parse_asf(*read_file(asf), "02.asf");
@@ -241,7 +241,7 @@ TEST(Asf, AgreesWithAnotherReaderOnRealTrials) {
 
 TEST(Asf, ReadsAnAdultOfOrdinaryStature) {
   const auto asf = real_asf("cmu_asfamc/02.asf");
-  if (!std::filesystem::exists(asf)) GTEST_SKIP() << asf << " is not here";
+  if (!std::filesystem::exists(asf)) GTEST_SKIP() << asf << " is missing";
   const auto read = read_asf(asf);
   ASSERT_TRUE(read) << read.error().message();
   const auto joints = world_from_joints(read->skeleton, rest_pose(read->skeleton));

@@ -123,7 +123,7 @@ TEST(ReadBvh, StandsABodyWithoutRootOffsetOnTheFloor) {
 
 TEST(ReadBvh, HandsTheTravelOfHipsBelowAHelperRootToTheRoot) {
   const auto path = real_file("bandai/dataset-1_walk_normal_001.bvh");
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is missing";
   const auto read = read_bvh(path);
   ASSERT_TRUE(read) << read.error().message();
   const Motion& motion = read->motion;
@@ -167,7 +167,7 @@ TEST(ReadBvh, ReadsRealMotionsAgainInEveryDialect) {
                            "cmu_bvh_tmoco/05_06.bvh",
                            "bvh_python/test_freebvh.bvh",
                            "bvh_python/test_mocapbank.bvh"}) {
-    if (!exists(real_file(file))) GTEST_SKIP() << file << " is not here";
+    if (!exists(real_file(file))) GTEST_SKIP() << file << " is missing";
     auto real = read_bvh(real_file(file));
     ASSERT_TRUE(real) << real.error().message();
     Motion& motion = real->motion;

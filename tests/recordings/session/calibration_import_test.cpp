@@ -332,7 +332,7 @@ TEST_F(CalibrationImport, RefusesMillimetresAndEndlessReferences) {
 TEST(RealCalibration, ProjectsTheWandOfTagSlamToItsImagePositions) {
   const fs::path file = kCamera / "tagslam_tracks/test_4/cameras.yaml";
   if (!fs::exists(file))
-    GTEST_SKIP() << "the recordings camera/tagslam_tracks are not here";
+    GTEST_SKIP() << "the recordings camera/tagslam_tracks are missing";
   const auto calibration = read_calibration(file);
   ASSERT_TRUE(calibration) << calibration.error().message();
   ASSERT_EQ(calibration->cameras.size(), 8U);
@@ -355,7 +355,7 @@ TEST(RealCalibration, ProjectsTheWandOfTagSlamToItsImagePositions) {
 TEST(RealCalibration, ReadsFourCamerasOfCaliscope) {
   const fs::path sessions = kCamera / "caliscope/sessions";
   if (!fs::exists(sessions))
-    GTEST_SKIP() << "the recordings camera/caliscope are not here";
+    GTEST_SKIP() << "the recordings camera/caliscope are missing";
   for (const char* session : {"4_cam_recording", "charuco_calibration"}) {
     const auto calibration = read_calibration(sessions / session / "camera_array.toml");
     ASSERT_TRUE(calibration) << calibration.error().message();
@@ -367,7 +367,7 @@ TEST(RealCalibration, ReadsFourCamerasOfCaliscope) {
 
 TEST(RealCalibration, ReadsALensOfOpenCvOrReportsTheMissingPart) {
   const fs::path samples = kCamera / "opencv_samples";
-  if (!fs::exists(samples)) GTEST_SKIP() << "camera/opencv_samples is not here";
+  if (!fs::exists(samples)) GTEST_SKIP() << "camera/opencv_samples is missing";
   const auto lens = read_calibration(samples / "left_intrinsics.yml");
   ASSERT_TRUE(lens) << lens.error().message();
   EXPECT_EQ(lens->cameras[0].intrinsics.focal_px.x, 5.3591573396163199e+02);

@@ -159,7 +159,7 @@ TEST(SampleSession, IsRead) {
 
 TEST(SampleSession, HasAllItsVideos) {
   const fs::path data = marey::testing::shared_data() / "blender/dev";
-  if (!fs::exists(data)) GTEST_SKIP() << "the recording blender/dev is not here";
+  if (!fs::exists(data)) GTEST_SKIP() << "the recording blender/dev is missing";
   const Result<Session> session = read_session(kSample, {.media = data});
   ASSERT_TRUE(session) << session.error().message();
   const Status status = check_files(*session);

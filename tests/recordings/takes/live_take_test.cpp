@@ -214,7 +214,7 @@ TEST(ViewBytes, AreRefusedAtEveryLengthButTheirOwn) {
   std::vector<std::byte> bytes;
   write_views(instant(9).seen.views, bytes);
   ASSERT_TRUE(read_views(bytes, 2));
-  EXPECT_FALSE(read_views(bytes, 1)) << "a camera that there is not";
+  EXPECT_FALSE(read_views(bytes, 1)) << "a camera that does not exist";
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     EXPECT_FALSE(read_views(std::span(bytes).first(size), 2)) << size;
   }

@@ -119,7 +119,7 @@ TEST(AdapterControl, AChangeThatIsTakenBackOnItsWayTurnsAroundWithoutAJump) {
     }
   };
   go_on(Control::kBlend, kChange_s, 200);
-  EXPECT_GT(max_turned_rad(now, first), 0.1) << "half of the way";
+  EXPECT_GT(max_turned_rad(now, first), 0.1) << "at half of the duration";
   go_on(Control::kPriority, kChange_s, 50);
   go_on(Control::kBlend, kChange_s, 150);
   go_on(Control::kBlend, kSlower_s, 20);

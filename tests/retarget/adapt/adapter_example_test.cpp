@@ -91,7 +91,7 @@ TEST(AdapterExample, TakesTheCup) {
   // A constraint's precision.
   EXPECT_LT(glm::distance(at(59, HumanBone::kRightHand), cup_in_world), 1e-3);
   EXPECT_GT(glm::distance(at(14, HumanBone::kRightHand), cup_in_world), 0.5)
-      << "not before its time";
+      << "not before its start";
   // Accuracy of single precision.
   EXPECT_LT(glm::distance(at(59, HumanBone::kLeftFoot), at(0, HumanBone::kLeftFoot)),
             1e-5);

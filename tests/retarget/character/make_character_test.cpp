@@ -203,7 +203,7 @@ TEST(MakeCharacter, LimitsNothingThatCapturedPeopleDo) {
     const auto motion =
         testing::truth_motion(marey::testing::shared_data().string() + "/blender/dev/" +
                               trial + "/truth/segments.csv");
-    if (!motion) GTEST_SKIP() << "the recordings with truth are not there";
+    if (!motion) GTEST_SKIP() << "the recordings with truth are missing";
     const Character character = made(motion->skeleton);
     double worst_rad = 0.0;
     std::string whose;

@@ -132,7 +132,7 @@ TEST_F(MeasureConstraint, SupportsAreOffByTheirPoint) {
       0.1,
       1e-12);
   EXPECT_NEAR(error_m(Support{}, {"leftFoot", {}}), glm::length(ankle), 1e-12)
-      << "its place is the caller's to know";
+      << "the caller knows its place";
 }
 
 }  // namespace

@@ -157,7 +157,7 @@ void PosedGlb::read_nodes(const GlbFile& file) {
       placed[i] = 1;
       order_.push_back(i);
     }
-    if (order_.size() == before) throw std::runtime_error("nodes are no tree");
+    if (order_.size() == before) throw std::runtime_error("the nodes are not a tree");
   }
 }
 

@@ -66,7 +66,7 @@ int wait_for(pid_t child, const Ears& ears, const std::string& interrupt_at) {
     if (ended == child) {
       return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
     }
-    if (ended < 0) throw std::runtime_error("lost sight of the program");
+    if (ended < 0) throw std::runtime_error("waitpid() failed");
     if (read_text(ears.err()).find(interrupt_at) != std::string::npos) {
       kill(child, SIGINT);
       interrupted = true;

@@ -204,7 +204,7 @@ TEST_P(AdapterLimbs, KeepAHandsLimitsBehindATwistedForearm) {
         angle_between_rad(rotation_of(body, out, "leftHand"),
                           std::get<SegmentOrientation>(turned.goal).world_from_t_pose));
   }
-  EXPECT_GT(furthest_rad, 0.3) << "no limit was in the way";
+  EXPECT_GT(furthest_rad, 0.3) << "no limit stopped the turn";
 }
 
 }  // namespace
