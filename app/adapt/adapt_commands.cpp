@@ -275,21 +275,23 @@ void add_solve_options(CLI::App& command, retarget::AdaptOptions& options) {
                           {{"off", BalanceMode::kOff},
                            {"horizontal", BalanceMode::kHorizontal},
                            {"3d", BalanceMode::k3d}},
-                          "Keep the centre of mass where the motion has it; default off");
+                          "Keep the motion's centre of mass; default off");
   command
-      .add_option("--root-share",
-                  options.root_for_constraints,
-                  "Share of the root's correction used for constraints; default 1")
+      .add_option(
+          "--root-share",
+          options.root_for_constraints,
+          "Factor on the root's translation towards constraints, 0 to 1; default 1")
       ->check(between(0.0, 1.0));
   command
       .add_option("--balance-root-share",
                   options.root_for_balance,
-                  "Share of the root's correction used for balance; default 1")
+                  "Factor on the root's translation for balance, 0 to 1; default 1")
       ->check(between(0.0, 1.0));
   command
       .add_option("--max-iterations",
                   options.max_iterations,
-                  "Maximum number per try; default 50. A frame has several tries while "
+                  "Maximum number of iterations per try; default 50. A frame has several "
+                  "tries while "
                   "constraints fade, or by priority if not all can be met. The strict "
                   "method makes at least " +
                       std::to_string(retarget::kFirstSteps) + ", with balance " +

@@ -49,7 +49,7 @@ std::optional<Error> no_conversion(const std::filesystem::path& in) {
   }
   if (kind == ".mot" || kind == ".sto") {
     return bad_input(in.string(),
-                     "joint angles hold no body, whose lengths a motion needs",
+                     "joint angles contain no segment lengths, which a motion needs",
                      "convert the motion.npz, .bvh or .glb that they were written with");
   }
   if (kind == ".sqlite") {
@@ -73,7 +73,7 @@ Exit run_convert(const ConvertArguments& arguments, Console& console) {
   std::error_code ignored;
   if (std::filesystem::equivalent(arguments.in, arguments.out, ignored)) {
     return console.fail(bad_input(arguments.out.string(),
-                                  "that is the file to be converted",
+                                  "input and output are the same file",
                                   "give the result another name"));
   }
   if (const auto error = no_conversion(arguments.in)) return console.fail(*error);

@@ -36,15 +36,31 @@ void add_mannequin_command(CLI::App& app,
   const auto size = between(0.3, 10.0);
   const auto ratio = between(0.2, 5.0);
   command->add_option("--height", m.stature_m, "Stature [m]")->check(size);
-  command->add_option("--arm-ratio", m.arm, "Arms relative to the average")->check(ratio);
-  command->add_option("--leg-ratio", m.leg, "Legs")->check(ratio);
-  command->add_option("--foot-ratio", m.foot, "Feet")->check(ratio);
-  command->add_option("--trunk-ratio", m.trunk, "Trunk")->check(ratio);
-  command->add_option("--head-ratio", m.head, "Neck and head")->check(ratio);
-  command->add_option("--shoulder-ratio", m.shoulder_width, "Shoulder breadth")
+  command->add_option("--arm-ratio", m.arm, "Length of the arms relative to the average")
       ->check(ratio);
-  command->add_option("--hip-ratio", m.hip_width, "Hip breadth")->check(ratio);
-  command->add_option("--girth", args.style.girth, "Thickness of every part")
+  command->add_option("--leg-ratio", m.leg, "Length of the legs relative to the average")
+      ->check(ratio);
+  command
+      ->add_option("--foot-ratio", m.foot, "Length of the feet relative to the average")
+      ->check(ratio);
+  command
+      ->add_option(
+          "--trunk-ratio", m.trunk, "Length of the trunk relative to the average")
+      ->check(ratio);
+  command
+      ->add_option(
+          "--head-ratio", m.head, "Size of neck and head relative to the average")
+      ->check(ratio);
+  command
+      ->add_option("--shoulder-ratio",
+                   m.shoulder_width,
+                   "Shoulder breadth relative to the average")
+      ->check(ratio);
+  command->add_option("--hip-ratio", m.hip_width, "Hip breadth relative to the average")
+      ->check(ratio);
+  command
+      ->add_option(
+          "--girth", args.style.girth, "Thickness of all parts relative to the average")
       ->check(ratio);
   command->add_option("-o,--out", args.out, "Result (.glb)")->required();
   command->callback([&] {

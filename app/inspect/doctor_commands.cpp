@@ -72,7 +72,7 @@ std::vector<Check> examine_machine() {
           {"working folder",
            writes,
            writes ? "can be written to" : "cannot be written to",
-           "run marey in a folder of yours, or give --out one",
+           "run marey in a folder that you can write to, or name one with --out",
            Exit::kDevice},
           {"tag detector",
            detector,

@@ -51,9 +51,10 @@ Result<Onward> open_onward(const ListenArguments& arguments, const Skeleton& per
       plan_streams(arguments.vmc, rest_of(arguments), std::nullopt, settings, targets);
   if (!planned) return planned.error();
   if (settings.streams.size() != 1) {
-    return bad_input("--vmc",
-                     "targets on this machine and elsewhere want packets of other sizes",
-                     "run marey listen once for each");
+    return bad_input(
+        "--vmc",
+        "targets on this machine and on others need packets of different sizes",
+        "run marey listen once for each");
   }
   auto retarget = make_live_retarget(performer, *avatar);
   if (!retarget) return retarget.error();

@@ -174,7 +174,7 @@ void add_replay_command(CLI::App& app,
                         ReplayArguments& args,
                         std::function<Exit(Console&)>& chosen) {
   CLI::App* command =
-      app.add_subcommand("replay", "Replay a recorded live run, with the same bytes");
+      app.add_subcommand("replay", "Repeat a recorded live run; it sends the same bytes");
   command->add_option("TAKE", args.take, "Folder written by marey live --record")
       ->required();
   command->add_option("--vmc", args.vmc, "Receiver of the packets: [AVATAR=]HOST[:PORT]")

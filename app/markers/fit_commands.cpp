@@ -219,8 +219,8 @@ Exit run_fit(const FitArguments& args, Console& console) {
 void add_fit_command(CLI::App& app,
                      FitArguments& args,
                      std::function<Exit(Console&)>& chosen) {
-  CLI::App* command =
-      app.add_subcommand("fit", "Subject and motion from labelled markers (C3D, TRC)");
+  CLI::App* command = app.add_subcommand(
+      "fit", "Fit a subject and its motion to labelled markers (C3D, TRC)");
   command->add_option("INPUT", args.in, "Trials of one subject, .c3d or .trc")
       ->required();
   command->add_option("-o,--out", args.out, "Folder for the results")->required();
@@ -232,14 +232,15 @@ void add_fit_command(CLI::App& app,
   CLI::Option* stature =
       command->add_option("--stature", args.stature_m, "Stature of the subject [m]")
           ->check(between(0.3, 3.0));
-  CLI::Option* mass = command->add_option("--mass", args.mass_kg, "Its mass [kg]")
-                          ->check(between(1.0, 500.0));
+  CLI::Option* mass =
+      command->add_option("--mass", args.mass_kg, "Mass of the subject [kg]")
+          ->check(between(1.0, 500.0));
   for (CLI::Option* option : {map, person, stature, mass}) option->excludes(subject);
   command
       ->add_option(
           "-a,--avatar",
           args.avatars,
-          "Body to put the motion on: " + body_extensions() + "; may be repeated")
+          "Body to retarget the motion to: " + body_extensions() + "; may be repeated")
       // One value per option: the next argument may be a trial.
       ->allow_extra_args(false);
   command->add_option("--up", args.up, "Up axis of the files; default as detected")

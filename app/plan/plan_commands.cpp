@@ -105,7 +105,7 @@ void warn(const PlanReport& report, Console& console) {
   } else if (report.not_calibrated) {
     const Error& error = *report.not_calibrated;
     console.warn(report.name +
-                 ": a board waved in this volume would not calibrate the cameras (" +
+                 ": a board moved through this volume would not calibrate the cameras (" +
                  (error.where.empty() ? "" : error.where + ": ") + error.cause + "): " +
                  (report.is_calibrated
                       ? "the errors of each camera are taken as independent, as large "
@@ -140,7 +140,7 @@ void add_plan_command(CLI::App& app,
                       PlanArguments& args,
                       std::function<Exit(Console&)>& chosen) {
   CLI::App* command =
-      app.add_subcommand("plan", "Predict what cameras will see, and how well");
+      app.add_subcommand("plan", "Predict coverage and accuracy of planned cameras");
   command->add_option("PLAN", args.plan, "plan.toml, or a calibration.toml")->required();
   command->add_option("-o,--out", args.out, "Folder for plan.json and plan.html")
       ->required();

@@ -115,7 +115,8 @@ void add_aprilgrid(CLI::App& command,
       command.add_option("--rows", grid.rows, "Tags along y; default 6")->check(count),
       add_length(
           command, "--tag-size", "Edge of a tag's square; default 22mm", grid.tag_size_m),
-      add_length(command, "--gap", "Between two squares; default 6.6mm", grid.gap_m),
+      add_length(
+          command, "--gap", "Distance between two squares; default 6.6mm", grid.gap_m),
       command.add_option("--first-id", grid.first_id, "The tag at the origin; default 0")
           ->check(whole_between(0, 65535))};
   for (CLI::Option* option : own) option->group("AprilGrid");
@@ -171,11 +172,12 @@ void add_board(CLI::App& app,
           ->check(one_of({"aprilgrid", "charuco", "chessboard"}));
   type->excludes(session);
   command->add_flag(
-      "--one-page", args.one_page, "Refuse a board that is larger than the page");
-  add_length(*command,
-             "--thickness",
-             "Thickness of the plate behind the board, for the table",
-             args.thickness_m)
+      "--one-page", args.one_page, "Reject a board that is larger than the page");
+  add_length(
+      *command,
+      "--thickness",
+      "Thickness of the plate behind the board, for the printed part of session.toml",
+      args.thickness_m)
       ->excludes(session);
   std::vector<CLI::Option*> of_grid;
   std::vector<CLI::Option*> of_charuco;

@@ -94,7 +94,7 @@ void add_session_command(CLI::App& app,
         ->add_option(
             "-a,--avatar",
             args.pipeline.avatars,
-            "Body to put the motion on: " + body_extensions() + "; may be repeated")
+            "Body to retarget the motion to: " + body_extensions() + "; may be repeated")
         // One avatar per option: the next argument may be the session.
         ->allow_extra_args(false);
   }
@@ -210,7 +210,7 @@ void add_session_commands(CLI::App& app,
                           std::function<Exit(Console&)>& chosen) {
   add_session_command(app,
                       "process",
-                      "Everything: tags, cameras, subject, motion, avatars, report",
+                      "Run all stages: tags, cameras, subject, motion, avatars, report",
                       Stage::kProcess,
                       args,
                       chosen);
@@ -220,7 +220,7 @@ void add_session_commands(CLI::App& app,
       app, "calibrate", "Calibrate the cameras", Stage::kCalibrate, args, chosen);
   add_session_command(app,
                       "solve",
-                      "Subject, motion and avatars, with the cameras calibrated before",
+                      "Solve subject, motion and avatars with calibrated cameras",
                       Stage::kSolve,
                       args,
                       chosen);
