@@ -239,7 +239,7 @@ Outcome run(int seed, Mistake mistake, FitHonesty& honesty) {
   }
   if (out.is_refused) return out;
   const app::FitLabels labels = fit_labels(one);
-  app::SubjectFit subject;
+  app::LabelledFit subject;
   {
     auto fit = app::fit_subject_to({}, one.trials, labels, {});
     refuse_all(out, app::assess_sides_and_axes(trials, geometry));

@@ -8,7 +8,7 @@
 
 namespace marey {
 
-Result<retarget::BodyConstants> stand_as_marey(const retarget::FileUnit& unit,
+Result<retarget::BodyFrame> stand_as_marey(const retarget::FileUnit& unit,
                                                Motion& motion) {
   auto bones = retarget::identify_bones(motion.skeleton);
   if (!bones) return bones.error();

@@ -33,7 +33,7 @@ struct SkinFigures {
 };
 
 SkinFigures measure_skin(const recordings::Character& file,
-                         const retarget::BodyConstants& frame) {
+                         const retarget::BodyFrame& frame) {
   SkinFigures out;
   if (!file.mesh || !file.motion) return out;
   for (std::size_t t = 0; t < file.motion->poses.size(); ++t) {
