@@ -121,8 +121,8 @@ void report_losses(const TakeCamera& recorded,
 }
 
 /// Returns the longest time between two successive frames, as text for a message.
-std::string max_gap(const std::vector<capture::CameraTimes>& cameras,
-                    const std::vector<const TakeCamera*>& recorded) {
+std::string max_gap_text(const std::vector<capture::CameraTimes>& cameras,
+                         const std::vector<const TakeCamera*>& recorded) {
   Timestamp longest{-1};
   std::string text;
   for (std::size_t c = 0; c < cameras.size(); ++c) {
@@ -152,7 +152,8 @@ Error unusable_times(const std::filesystem::path& file,
   }
   return bad_input(
       file.string(),
-      "its times span too long for the number of frames: " + max_gap(cameras, recorded),
+      "its times span too long for the number of frames: " +
+          max_gap_text(cameras, recorded),
       "record the trial again; or name the videos in the trial's `videos`, "
       "elsewhere than in the take: then frames are matched by their numbers");
 }

@@ -19,7 +19,7 @@ struct ConvertArguments {
   std::string to_unit;
   // For motions only:
   std::filesystem::path skeleton;  ///< The .asf of an .amc; empty: the one next to it.
-  std::optional<double> rate_hz;   ///< Rate of IN, if its file is wrong.
+  std::optional<double> rate_hz;   ///< Rate of INPUT, if its file is wrong.
   std::optional<double> to_rate_hz;
   std::string bvh_dialect;  ///< Name of a BvhDialect, or empty.
   std::string neutral;      ///< Argument of read_neutral(), or empty.

@@ -11,8 +11,8 @@
 
 namespace marey::app {
 
-/// Runs `marey convert IN OUT`: converts labelled markers, or the motion of a skeleton,
-/// to another file format.
+/// Runs `marey convert INPUT OUTPUT`: converts labelled markers, or the motion of a
+/// skeleton, to another file format.
 [[nodiscard]] Exit run_convert(const ConvertArguments& arguments, Console& console);
 
 /// Adds the command. Parsing it sets `chosen`. `args` must keep its address.

@@ -16,8 +16,8 @@ namespace marey::app {
 
 /// Arguments of `marey listen`.
 struct ListenArguments {
-  std::filesystem::path body;  ///< Avatar; the sender uses the same one.
-  std::filesystem::path out;   ///< Output file; empty: nothing is written.
+  std::filesystem::path body;      ///< Avatar; the sender uses the same one.
+  std::filesystem::path out;       ///< Output file; empty: nothing is written.
   std::string from = "127.0.0.1";  ///< Address to listen on, "HOST[:PORT]".
   std::string rest = "vrm0";
   std::vector<std::filesystem::path> avatars;  ///< Live retargeting target; at most one.

@@ -50,7 +50,7 @@ struct LiveRunOptions {
 };
 
 /// Runs until `stop` returns true. One thread per camera detects its tags. The calling
-/// thread takes the newest instant that is complete or has reached the longest wait,
+/// thread takes the newest instant that is complete or has waited for `max_wait`,
 /// computes its packets with the chain and sends them before any other work on the
 /// instant.
 ///

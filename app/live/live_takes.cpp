@@ -32,9 +32,7 @@ std::filesystem::path free_name(const std::filesystem::path& stem) {
 
 }  // namespace
 
-LiveTakes::LiveTakes(const OpenedLive& live,
-                     std::filesystem::path stem,
-                     Console& console)
+LiveTakes::LiveTakes(const OpenedLive& live, std::filesystem::path stem, Console& console)
     : live_(live),
       stem_(stem.has_filename() ? std::move(stem) : stem.parent_path()),
       console_(console),
@@ -57,8 +55,7 @@ Status LiveTakes::begin_with_run(const std::filesystem::path& folder) {
 LiveTakes::Take LiveTakes::open(const Body& body, const LiveSettings& settings) const {
   Take take;
   take.folder = free_name(stem_);
-  auto chain =
-      LiveChain::make(body, live_.calibration.cameras, live_.avatars, settings);
+  auto chain = LiveChain::make(body, live_.calibration.cameras, live_.avatars, settings);
   if (!chain) {
     take.trouble = chain.error();
     return take;
@@ -117,9 +114,8 @@ void LiveTakes::check_threads() {
   const bool is_void = take_ && std::exchange(is_opening_void_, false);
   if (take_ && (!wanted_ || is_void) && !closing_.valid()) close();
   if (wanted_ && !take_ && !opening_.valid() && !closing_.valid()) {
-    opening_ = std::async(std::launch::async, [this, body = *body_] {
-      return open(body, live_.settings);
-    });
+    opening_ = std::async(std::launch::async,
+                          [this, body = *body_] { return open(body, live_.settings); });
   }
 }
 
@@ -127,16 +123,15 @@ void LiveTakes::close() {
   Take take = *std::move(take_);
   take_.reset();
   if (!take.recorder) return;
-  closing_ = std::async(
-      std::launch::async, [take = std::move(take)]() mutable -> Take {
-        if (!take.begin && !take.trouble) {
-          take.recorder->discard();
-        } else if (const Status ok = take.recorder->finish(); !ok) {
-          take.trouble = ok.error();
-        }
-        take.recorder.reset();
-        return std::move(take);
-      });
+  closing_ = std::async(std::launch::async, [take = std::move(take)]() mutable -> Take {
+    if (!take.begin && !take.trouble) {
+      take.recorder->discard();
+    } else if (const Status ok = take.recorder->finish(); !ok) {
+      take.trouble = ok.error();
+    }
+    take.recorder.reset();
+    return std::move(take);
+  });
 }
 
 /// Returns the requests that are still in force, for a new chain.

@@ -15,7 +15,7 @@ namespace marey::app {
 
 /// A joint at which a user can drag a body.
 struct BodyHandle {
-  std::string_view id;  ///< "left hand".
+  std::string_view id;       ///< "left hand".
   std::string_view segment;  ///< VRM's name: "leftHand".
   JointIndex joint{};
 };

@@ -96,9 +96,8 @@ void LiveHandles::stand(std::span<const RigidTransform> world_from_joint,
                         const std::array<retarget::StandingFoot, 2>& standing) {
   const bool is_held = any_active();
   // No handle has an effect yet: the supports must be active before the first handle.
-  const bool begins = std::ranges::all_of(held_, [](const Held& held) {
-    return held.handle.outcome().activation == 0.0;
-  });
+  const bool begins = std::ranges::all_of(
+      held_, [](const Held& held) { return held.handle.outcome().activation == 0.0; });
   for (Foot& foot : feet_) {
     const retarget::StandingFoot& parts = standing[foot.side];
     const bool stands = is_held && (parts.heel || parts.ball) && !is_dragged(foot.joint);

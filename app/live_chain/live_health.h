@@ -52,8 +52,8 @@ void add_subject_status(reconstruct::TrackState state,
 
 /// Detects that tags are visible but no body pose fits them: for kAfter_s at least two
 /// cameras have each seen kMinTags of the body's tags, and no body was found, or only one
-/// with a residual above kMax_px. The typical cause is cameras that were swapped or moved
-/// since their calibration.
+/// with a residual above kMax_px. The typical cause is cameras that were exchanged or
+/// moved since their calibration.
 class UnmatchedTagsDetector {
  public:
   static constexpr double kAfter_s = 3.0;
@@ -66,7 +66,8 @@ class UnmatchedTagsDetector {
   /// Message to the user.
   static constexpr const char* kText =
       "Tags are visible but no body pose fits them. Possible causes: hips and chest are "
-      "hidden; cameras were moved or swapped since the calibration; the suit belongs to "
+      "hidden; cameras were moved or exchanged since the calibration; the suit belongs "
+      "to "
       "another subject. Next: show hips and chest, restore the camera names of the "
       "calibration, or calibrate again.";
 

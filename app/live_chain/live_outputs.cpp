@@ -72,8 +72,8 @@ std::vector<OutputCounts> LiveOutputs::counts() const {
   for (std::size_t s = 0; s < senders_.size(); ++s) {
     for (std::size_t t = 0; t < targets_[s].addresses.size(); ++t) {
       const char* const what = s < vmc_streams_ ? "VMC " : "VRChat ";
-      out.push_back({what + live::text_of(targets_[s].addresses[t]),
-                     senders_[s].counts()[t]});
+      out.push_back(
+          {what + live::text_of(targets_[s].addresses[t]), senders_[s].counts()[t]});
     }
   }
   return out;

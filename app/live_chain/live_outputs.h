@@ -42,7 +42,7 @@ class LiveOutputs {
   [[nodiscard]] std::vector<OutputCounts> counts() const;
 
  private:
-  std::vector<StreamTargets> targets_;  ///< By stream; VRChat last, if requested.
+  std::vector<StreamTargets> targets_;    ///< By stream; VRChat last, if requested.
   std::vector<live::UdpSender> senders_;  ///< Same order as targets_.
   std::size_t vmc_streams_ = 0;
   std::optional<live::UdpListener> listener_;

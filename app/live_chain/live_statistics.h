@@ -61,9 +61,9 @@ struct LiveRecording {
 
 /// Figures of a live run.
 struct LiveStatistics {
-  long frames = 0;     ///< Solved instants.
-  long tracked = 0;    ///< Solved instants with the body tracked.
-  long lost = 0;       ///< Solved instants with the body lost.
+  long frames = 0;          ///< Solved instants.
+  long tracked = 0;         ///< Solved instants with the body tracked.
+  long lost = 0;            ///< Solved instants with the body lost.
   int relocalizations = 0;  ///< Number of relocalizations of a lost body.
   double seconds = 0.0;
   LiveTimes times;

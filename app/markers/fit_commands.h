@@ -29,8 +29,8 @@ struct FitArguments {
   bool json = false;
 };
 
-/// Runs `marey fit IN... --out DIR`: fits the subject to labelled markers and writes its
-/// motion in every format (docs/formats/README.md).
+/// Runs `marey fit INPUT... --out DIR`: fits the subject to labelled markers and writes
+/// its motion in every format (docs/formats/README.md).
 [[nodiscard]] Exit run_fit(const FitArguments& args, Console& console);
 
 /// Adds the command. If the user gives it, `chosen` runs it. `args` must stay in place.

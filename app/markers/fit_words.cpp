@@ -147,7 +147,7 @@ std::vector<Finding> assess_run(const FitRun& run) {
           "repaired",
           trial.path.string(),
           std::to_string(faults) + (faults == 1 ? " run" : " runs") +
-              " of wrong samples (swapped, ghosts, jumps) put right or taken out: "
+              " of wrong samples (exchanged, ghosts, jumps) corrected or removed: "
               "fit.json lists them"));
     }
   }

@@ -19,9 +19,9 @@ struct RepairArguments {
   bool json = false;
 };
 
-/// Runs `marey repair IN --out OUT`: writes OUT with wrong samples removed or corrected
-/// and gaps filled. In the same folder, OUT.repair.csv lists every changed sample,
-/// OUT.repair.json every fault and gap, and OUT.repair.html shows them.
+/// Runs `marey repair INPUT --out OUT`: writes OUT with wrong samples removed or
+/// corrected and gaps filled. In the same folder, OUT.repair.csv lists every changed
+/// sample, OUT.repair.json every fault and gap, and OUT.repair.html shows them.
 [[nodiscard]] Exit run_repair(const RepairArguments& args, Console& console);
 
 /// Adds the command. If the user gives it, `chosen` runs it. `args` must stay in place.

@@ -11,8 +11,9 @@
 namespace marey::app {
 
 /// Returns the joint angles of a motion as OpenSim reads them: motion.mot
-/// (docs/formats/joint_angles.md). Time is (first_frame + i) / rate. nullopt: the skeleton
-/// is not one of marey's own, with all 22 bones and a rest pose without rotations.
+/// (docs/formats/joint_angles.md). Time is (first_frame + i) / rate. nullopt: the
+/// skeleton is not one of marey's own, with all 22 bones and a rest pose without
+/// rotations.
 [[nodiscard]] std::optional<recordings::MotTable> angle_table(const Motion& motion,
                                                               std::string name);
 

@@ -79,7 +79,7 @@ struct AvatarVerdict {
   /// Largest distance between a bone in a written file and its solved position [mm];
   /// nullopt: no file was read again.
   std::optional<double> reread_off_mm;
-  double arms_in_body_mm = 0.0;  ///< ArmCollisionReport::deepest_after_m.
+  double arms_in_body_mm = 0.0;  ///< ArmCollisionReport::max_depth_after_m, in mm.
   /// Faults; each states the body, the part, the frame and the next step. Poor beyond the
   /// gate.
   std::vector<Finding> problems;

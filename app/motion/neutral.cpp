@@ -146,7 +146,7 @@ Result<NeutralKind> set_neutral(const Neutral& neutral,
     case NeutralKind::kAuto: {
       if (retarget::stands_at_rest(motion.skeleton, found)) return NeutralKind::kRest;
       const auto* const known = retarget::named_neutral(motion.skeleton);
-      retarget::rest_as_t_pose(motion, found, up, known);
+      retarget::set_rest_t_pose(motion, found, up, known);
       return known != nullptr ? NeutralKind::kNamed : NeutralKind::kTPose;
     }
     case NeutralKind::kRest:
@@ -154,7 +154,7 @@ Result<NeutralKind> set_neutral(const Neutral& neutral,
       break;
     case NeutralKind::kTPose:
     case NeutralKind::kNamed:
-      retarget::rest_as_t_pose(motion, found, up, neutral.named);
+      retarget::set_rest_t_pose(motion, found, up, neutral.named);
       break;
     case NeutralKind::kFrame:
       ok = take_frame(neutral.frame, found, up, motion);

@@ -23,12 +23,12 @@ namespace marey::app {
 /// An avatar that was read, ready for retargeting.
 struct OpenedAvatar {
   std::filesystem::path file;
-  Skeleton skeleton;                 ///< In marey's frame, its bones marked.
-  BodyLook look;                     ///< Without a file if there is no mesh.
-  retarget::Soles soles;             ///< ReadBody::soles.
+  Skeleton skeleton;                           ///< In marey's frame, its bones marked.
+  BodyLook look;                               ///< Without a file if there is no mesh.
+  retarget::Soles soles;                       ///< ReadBody::soles.
   std::optional<retarget::BodyVolume> volume;  ///< ReadBody::volume.
   retarget::Skin skin;                         ///< ReadBody::skin.
-  std::vector<std::string> remarks;  ///< ReadBody::remarks().
+  std::vector<std::string> remarks;            ///< ReadBody::remarks().
   /// The file is a VRM 0.x: `skeleton` was rotated by half a turn about Y.
   bool file_faces_back = false;
 };

@@ -15,8 +15,8 @@ namespace marey::app {
 /// strings only, and are replaced by escapes with the same meaning.
 [[nodiscard]] std::string json_in_html(const nlohmann::ordered_json& json);
 
-/// Replaces every `{{name}}` of a page of app/pages/report_page.h by its part. Precondition: every
-/// name has a part.
+/// Replaces every `{{name}}` of a page of app/pages/report_page.h by its part.
+/// Precondition: every name has a part.
 [[nodiscard]] std::string fill_page(
     std::string_view page,
     const std::vector<std::pair<std::string_view, std::string>>& parts);

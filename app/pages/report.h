@@ -89,8 +89,8 @@ struct ReportBody {
   // Avatars only.
   double slide_before_cm_per_s = 0.0;
   double slide_after_cm_per_s = 0.0;
-  double penetration_mm = 0.0;           ///< Depth of the skin, else of the feet's ends.
-  std::string penetration_part;          ///< Part of the skin; empty: none, or unknown.
+  double penetration_mm = 0.0;   ///< Depth of the skin, else of the feet's ends.
+  std::string penetration_part;  ///< Part of the skin; empty: none, or unknown.
   std::optional<int> penetration_frame{};  ///< Frame of it; 0 is the motion's first.
   double source_depth_mm = 0.0;  ///< Depth of the subject's joints below the floor.
   double legs_deg = 0.0;         ///< From the subject: largest median of a segment.

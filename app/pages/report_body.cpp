@@ -34,9 +34,9 @@ bool is_hand(const Joint& joint) {
 
 std::vector<bool> choose_joints(const Skeleton& skeleton) {
   const auto& joints = skeleton.joints;
-  const bool nobody = std::none_of(
+  const bool has_no_bones = std::none_of(
       joints.begin(), joints.end(), [](const Joint& j) { return j.bone.has_value(); });
-  std::vector<bool> chosen(joints.size(), nobody);
+  std::vector<bool> chosen(joints.size(), has_no_bones);
   std::vector<bool> on_hand(joints.size(), false);
   for (std::size_t j = 0; j < joints.size(); ++j) {
     on_hand[j] =

@@ -8,8 +8,9 @@
 
 namespace marey::app {
 
-/// Returns a body in motion in the format of the page's viewer (live/viewer/src/report/recorded_body.ts):
-/// points with names and parents, then little-endian arrays in base64, frame by frame.
+/// Returns a body in motion in the format of the page's viewer
+/// (live/viewer/src/report/recorded_body.ts): points with names and parents, then
+/// little-endian arrays in base64, frame by frame.
 ///
 ///   xyz     int16, three per point: origin_m + unit_m * value, in the world
 ///   turns   int16 / 32767, x y z w per joint: the rotation since the rest pose, in world

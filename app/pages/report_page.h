@@ -15,8 +15,8 @@ namespace marey::app {
 /// Returns the style that all reports share.
 [[nodiscard]] std::string_view report_style();
 
-/// Returns the bundled script. Empty in a build with -DMAREY_VIEWER=OFF, whose pages state
-/// this.
+/// Returns the bundled script. Empty in a build with -DMAREY_VIEWER=OFF, whose pages
+/// state this.
 [[nodiscard]] std::string_view report_script();
 
 // The same for the page of a calibration. Its style is in addition to report_style().

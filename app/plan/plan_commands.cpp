@@ -62,9 +62,8 @@ PlanReport report_of(const PlanArguments& args, recordings::CapturePlan plan) {
       args.stature_m.value_or(plan.stature_m.value_or(calib::kTypicalStature_m));
   report.grid = calib::grid_before(report.cameras);
   if (plan.volume) {
-    const auto& [minimum, greatest, step_m] = *plan.volume;
-    report.grid = {
-        {minimum.x, 0.0, minimum.y}, {greatest.x, 0.0, greatest.y}, step_m, {}};
+    const auto& [min_m, max_m, step_m] = *plan.volume;
+    report.grid = {{min_m.x, 0.0, min_m.y}, {max_m.x, 0.0, max_m.y}, step_m, {}};
   }
   report.grid.heights_m.clear();
   for (const calib::BodyHeight& height : calib::kBodyHeights) {

@@ -82,9 +82,8 @@ std::string body(const Camera& camera, double size_m, const Frame& frame) {
   // The width of a letter is about 0.55 of its height, so the name stays inside.
   const double half_m = std::min(
       0.3 * size_m * static_cast<double>(camera.name.size() + 1), 0.5 * frame.extent.x);
-  name.x = std::clamp(name.x,
-                      frame.corner_min.x + half_m,
-                      frame.corner_min.x + frame.extent.x - half_m);
+  name.x = std::clamp(
+      name.x, frame.corner_min.x + half_m, frame.corner_min.x + frame.extent.x - half_m);
   return out +
          text_of(
              "<text x=\"%.3f\" y=\"%.3f\" font-size=\"%.3f\">", name.x, name.y, size_m) +
@@ -106,9 +105,8 @@ std::string metres(const Frame& frame) {
   for (int i = 0; i < lines(frame.corner_min.y, end.y); ++i) {
     const double z = std::ceil(frame.corner_min.y) + i;
     out +=
-        text_of("<line class=\"metre\" x1=\"%.3f\" x2=\"%.3f\" ",
-                frame.corner_min.x,
-                end.x) +
+        text_of(
+            "<line class=\"metre\" x1=\"%.3f\" x2=\"%.3f\" ", frame.corner_min.x, end.x) +
         text_of("y1=\"%.3f\" y2=\"%.3f\"/>", z, z);
   }
   return out;

@@ -184,7 +184,8 @@ std::string body_section(const PlanReport& report) {
   const calib::BodyPlan& body = report.body;
   std::string out = text_of(
       "<h2>A body that walks</h2>\n<p class=\"about\">It wears %.0f tags and "
-      "walks through the volume every way; its own flesh hides tags. It is found "
+      "walks through the volume in all directions; its soft tissue hides tags. It is "
+      "found "
       "in %.0f %% of frames. Measured: a tag of the bone is seen by a camera. "
       "Lasting: errors of the measured body and cameras, which do not average out "
       "over frames. Movement of the skin is not included.</p>\n",

@@ -265,7 +265,7 @@ Status Pipeline::fit() {
   if (!standing) return standing.error();
   const auto moving = unshrunk_detections_of(*moving_trial);
   if (!moving) return moving.error();
-  // All trials are checked before the long computation, so swapped videos are reported
+  // All trials are checked before the long computation, so exchanged videos are reported
   // early.
   if (const Status ok = check_trials(); !ok) return ok;
   if (auto exercise = assess_range_of_motion(session_, detections_)) {

@@ -53,7 +53,7 @@ class FrameQueue {
   std::size_t first_ = 0;
   std::size_t count_ = 0;  ///< Includes the frame that pop() returned.
   std::size_t end_ = 0;    ///< End of the newest frame in the memory.
-  bool in_use_ = false;      ///< pop() returned the first frame.
+  bool in_use_ = false;    ///< pop() returned the first frame.
   bool closed_ = false;
 };
 

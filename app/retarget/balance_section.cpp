@@ -43,13 +43,14 @@ std::string bars_of(const retarget::BalanceTrack& track,
     while (end < track.size() && kind(end) == kind(first)) ++end;
     if (kind(first) != 0) {
       const bool over = kind(first) == 1;
-      out += text_of("<rect y=\"6\" height=\"30\" x=\"%.0f\" width=\"%.0f\"",
-                     static_cast<double>(first),
-                     static_cast<double>(end - first)) +
-             (over ? " class=\"over\"><title>over" : " class=\"beside\"><title>beside") +
-             text_of(" its support, %.2f to %.2f s</title></rect>",
-                     static_cast<double>(first) / hz,
-                     static_cast<double>(end - 1) / hz);
+      out +=
+          text_of("<rect y=\"6\" height=\"30\" x=\"%.0f\" width=\"%.0f\"",
+                  static_cast<double>(first),
+                  static_cast<double>(end - first)) +
+          (over ? " class=\"over\"><title>inside" : " class=\"outside\"><title>outside") +
+          text_of(" the support area, %.2f to %.2f s</title></rect>",
+                  static_cast<double>(first) / hz,
+                  static_cast<double>(end - 1) / hz);
     }
     first = end;
   }
@@ -65,7 +66,7 @@ std::string bars_of(const retarget::BalanceTrack& track,
 
 const std::string_view kBalanceStyle = R"(
 .contacts .who { overflow-wrap: anywhere; }
-.contacts .over { fill: #1a9b62; } .contacts .beside { fill: #d9a441; }
+.contacts .over { fill: #1a9b62; } .contacts .outside { fill: #d9a441; }
 )";
 
 std::string balance_section(const RetargetRun& run, const std::vector<int>& moments) {

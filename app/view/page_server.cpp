@@ -46,8 +46,8 @@ void open_in_browser(const std::string& address) {
       program.data(), option.data(), script.data(), argument.data(), nullptr};
   pid_t child = 0;
   // If the browser fails, the address was already printed.
-  if (posix_spawn(
-          &child, program.c_str(), nullptr, nullptr, arguments.data(), environ) == 0) {
+  if (posix_spawn(&child, program.c_str(), nullptr, nullptr, arguments.data(), environ) ==
+      0) {
     while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
     }
   }

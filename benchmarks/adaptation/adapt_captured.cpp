@@ -12,7 +12,6 @@
 #include "benchmarks/adaptation/posture_measures.h"
 #include "benchmarks/adaptation/posture_solver.h"
 #include "benchmarks/parts/captured_clips.h"
-
 #include "core/base/quantile.h"
 #include "core/transform.h"
 

@@ -8,11 +8,11 @@
 #include <string>
 #include <utility>
 
+#include <glm/geometric.hpp>
+
 #include "benchmarks/adaptation/adapt_questions.h"
 #include "benchmarks/adaptation/crowd_movers.h"
 #include "benchmarks/adaptation/posture_measures.h"
-#include <glm/geometric.hpp>
-
 #include "core/base/quantile.h"
 #include "core/transform.h"
 #include "tests/support/bodies/random_bodies.h"

@@ -22,7 +22,6 @@
 #include "benchmarks/adaptation/adapt_cases.h"
 #include "benchmarks/adaptation/adapt_questions.h"
 #include "benchmarks/parts/result_table.h"
-
 #include "tests/support/program/paths.h"
 
 namespace marey {

@@ -10,13 +10,13 @@
 #include <string>
 #include <utility>
 
+#include <glm/common.hpp>
+
 #include "benchmarks/adaptation/adapt_questions.h"
 #include "benchmarks/adaptation/compare_solvers.h"
 #include "benchmarks/adaptation/marey_posture_solver.h"
 #include "benchmarks/adaptation/posture_measures.h"
 #include "benchmarks/adaptation/standing_scene.h"
-#include <glm/common.hpp>
-
 #include "core/transform.h"
 #include "tests/support/bodies/random_bodies.h"
 

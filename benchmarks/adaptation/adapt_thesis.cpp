@@ -15,7 +15,6 @@
 #include "benchmarks/adaptation/posture_measures.h"
 #include "benchmarks/adaptation/posture_solver.h"
 #include "benchmarks/adaptation/standing_scene.h"
-
 #include "core/base/quantile.h"
 
 namespace marey {

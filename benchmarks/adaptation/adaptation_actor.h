@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "benchmarks/adaptation/picture_scene.h"
 #include <glm/vec3.hpp>
 
+#include "benchmarks/adaptation/picture_scene.h"
 #include "core/character.h"
 #include "core/character_spec.h"
 #include "core/constraint.h"

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "benchmarks/adaptation/picture_scene.h"
 #include <glm/vec3.hpp>
+
+#include "benchmarks/adaptation/picture_scene.h"
 
 /// The figures of docs/adaptation.md, after figures of Kulpa 2005. Each function prints
 /// the errors of its postures.

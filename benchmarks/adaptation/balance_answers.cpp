@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <utility>
 
-#include "benchmarks/adaptation/posture_measures.h"
 #include <glm/geometric.hpp>
 
+#include "benchmarks/adaptation/posture_measures.h"
 #include "core/base/degrees.h"
 #include "core/humanoid.h"
 #include "core/transform.h"

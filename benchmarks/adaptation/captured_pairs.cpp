@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "benchmarks/parts/captured_clips.h"
 #include <glm/geometric.hpp>
 
+#include "benchmarks/parts/captured_clips.h"
 #include "core/humanoid.h"
 #include "core/transform.h"
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "benchmarks/adaptation/posture_measures.h"
-
 #include "core/base/degrees.h"
 #include "core/base/quantile.h"
 

@@ -8,7 +8,6 @@
 
 #include "benchmarks/adaptation/posture_solver.h"
 #include "benchmarks/parts/result_table.h"
-
 #include "core/character.h"
 
 namespace marey {

@@ -12,7 +12,6 @@
 #endif
 
 #include "benchmarks/adaptation/marey_posture_solver.h"
-
 #include "retarget/adapt/crowd.h"
 
 namespace marey {

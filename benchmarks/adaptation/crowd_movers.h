@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "benchmarks/adaptation/adapt_cases.h"
 #include "benchmarks/adaptation/posture_solver.h"
 #include "benchmarks/baseline/gauss_newton_baseline.h"
-#include <glm/vec3.hpp>
-
 #include "core/character.h"
 #include "core/pose.h"
 

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "benchmarks/adaptation/posture_solver.h"
-
 #include "core/constraint.h"
 #include "retarget/adapt/adapter.h"
 

@@ -24,12 +24,12 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/geometric.hpp>
+
 #include "benchmarks/adaptation/balance_answers.h"
 #include "benchmarks/adaptation/posture_measures.h"
 #include "benchmarks/parts/captured_clips.h"
 #include "benchmarks/parts/result_table.h"
-#include <glm/geometric.hpp>
-
 #include "core/base/quantile.h"
 #include "core/humanoid.h"
 #include "core/transform.h"

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "benchmarks/baseline/gauss_newton_baseline.h"
 #include <glm/vec3.hpp>
 
+#include "benchmarks/baseline/gauss_newton_baseline.h"
 #include "core/character.h"
 #include "core/pose.h"
 #include "core/skeleton.h"

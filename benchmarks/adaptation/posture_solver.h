@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/baseline/gauss_newton_baseline.h"
 #include <glm/vec3.hpp>
 
+#include "benchmarks/baseline/gauss_newton_baseline.h"
 #include "core/character.h"
 #include "core/pose.h"
 

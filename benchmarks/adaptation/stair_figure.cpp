@@ -10,7 +10,6 @@
 
 #include "benchmarks/adaptation/adaptation_actor.h"
 #include "benchmarks/adaptation/adaptation_figures.h"
-
 #include "core/motion.h"
 #include "core/transform.h"
 #include "retarget/adapt/adapter.h"

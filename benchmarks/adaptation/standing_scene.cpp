@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <utility>
 
-#include "benchmarks/adaptation/posture_measures.h"
 #include <glm/gtc/quaternion.hpp>
 
+#include "benchmarks/adaptation/posture_measures.h"
 #include "core/base/degrees.h"
 #include "core/human/average_proportions.h"
 #include "core/humanoid.h"

@@ -11,11 +11,12 @@
 #include <span>
 #include <vector>
 
-#include "benchmarks/baseline/gauss_newton_baseline.h"
-#include "benchmarks/markers/ball_joint_body.h"
 #include <Eigen/Cholesky>
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
+
+#include "benchmarks/baseline/gauss_newton_baseline.h"
+#include "benchmarks/markers/ball_joint_body.h"
 
 namespace marey::gauss_newton {
 

@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/calibration/calibration_cases.h"
 #include <glm/geometric.hpp>
 
+#include "benchmarks/calibration/calibration_cases.h"
 #include "calib/rig/calibrate_cameras.h"
 #include "calib/rig/estimate_clocks.h"
 #include "capture/search/detect_videos.h"

@@ -62,8 +62,8 @@ struct Measured {
   std::vector<double> all_m;
   std::map<HumanBone, std::vector<double>> by_joint_m;
   std::map<HumanBone, double> measured_share;
-  glm::dvec3 minimum{1e9};
-  glm::dvec3 greatest{-1e9};
+  glm::dvec3 min_m{1e9};
+  glm::dvec3 max_m{-1e9};
 };
 
 Measured read_trial(const fs::path& out, const fs::path& truth) {
@@ -74,8 +74,8 @@ Measured read_trial(const fs::path& out, const fs::path& truth) {
   for (const auto& [key, place] : *places) {
     // The hips represent the position of the person.
     if (key.second != HumanBone::kLeftUpperLeg) continue;
-    measured.minimum = glm::min(measured.minimum, place);
-    measured.greatest = glm::max(measured.greatest, place);
+    measured.min_m = glm::min(measured.min_m, place);
+    measured.max_m = glm::max(measured.max_m, place);
   }
   for (const auto& row : rows) {
     const auto bone = human_bone(row.joint);
@@ -162,7 +162,7 @@ int main(int count, char** arguments) {
     const std::string trial = arguments[i];
     const Measured measured = read_trial(out / trial, truth / trial);
     const auto cameras = true_cameras(truth / trial, session);
-    const calib::ErrorMapGrid grid{measured.minimum, measured.greatest, 0.25, {}};
+    const calib::ErrorMapGrid grid{measured.min_m, measured.max_m, 0.25, {}};
     const calib::PlanBodyOptions options;
     const auto rig_covariance = must(calib::plan_calibration(
         cameras, grid, AprilGrid{}, capture::expected_corner_sigma_px, options.tags));

@@ -11,9 +11,9 @@
 #include <cstdio>
 #include <string>
 
-#include "benchmarks/calibration/calibration_cases.h"
 #include <glm/geometric.hpp>
 
+#include "benchmarks/calibration/calibration_cases.h"
 #include "core/base/degrees.h"
 
 namespace marey::calib {

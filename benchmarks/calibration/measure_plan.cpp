@@ -146,8 +146,8 @@ void evaluate_views(const std::vector<testing::TagView>& views,
 }
 
 struct Box {
-  glm::dvec3 minimum{1e9};
-  glm::dvec3 greatest{-1e9};
+  glm::dvec3 min_m{1e9};
+  glm::dvec3 max_m{-1e9};
 };
 
 double median(std::vector<double> values) {
@@ -167,9 +167,9 @@ void print_plan(const RenderedTruth& truth,
   PlanOptions options;
   options.tag_size_m = size_m;
   // Five heights of a body, from the lowest tag to the highest.
-  ErrorMapGrid grid{box.minimum, box.greatest, 0.1, {}};
+  ErrorMapGrid grid{box.min_m, box.max_m, 0.1, {}};
   for (int i = 0; i < 5; ++i) {
-    grid.heights_m.push_back(box.minimum.y + 0.25 * i * (box.greatest.y - box.minimum.y));
+    grid.heights_m.push_back(box.min_m.y + 0.25 * i * (box.max_m.y - box.min_m.y));
   }
   const auto plan =
       calib::plan_rig(cameras, nullptr, grid, capture::expected_corner_sigma_px, options);
@@ -218,8 +218,8 @@ void measure(const std::filesystem::path& session) {
     const RigidTransform world_from_tag = pose_of(corners);
     Box& box = boxes[size_mm];
     const glm::dvec3 place = kWorldFromData * world_from_tag.translation;
-    box.minimum = glm::min(box.minimum, place);
-    box.greatest = glm::max(box.greatest, place);
+    box.min_m = glm::min(box.min_m, place);
+    box.max_m = glm::max(box.max_m, place);
     Tally& tally = by_size_mm[size_mm];
     ++tally.in_truth;
     const ExpectedTag expected = calib::expect_tag(truth.cameras,

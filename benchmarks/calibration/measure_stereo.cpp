@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/calibration/calibration_cases.h"
 #include <glm/geometric.hpp>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "benchmarks/calibration/calibration_cases.h"
 #include "calib/rig/calibrate_cameras.h"
 #include "capture/boards/find_board_points.h"
 

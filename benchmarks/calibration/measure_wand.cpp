@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/calibration/calibration_cases.h"
 #include <glm/geometric.hpp>
 
+#include "benchmarks/calibration/calibration_cases.h"
 #include "calib/rig/calibrate_wand.h"
 #include "core/base/quantile.h"
 #include "reconstruct/clusters/triangulate.h"

@@ -26,9 +26,9 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/live/live_trails.h"
 #include <glm/geometric.hpp>
 
+#include "benchmarks/live/live_trails.h"
 #include "capture/search/detect_videos.h"
 #include "core/base/quantile.h"
 #include "reconstruct/tags/solve_motion.h"

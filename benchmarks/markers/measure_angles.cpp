@@ -26,7 +26,6 @@
 #include <vector>
 
 #include "benchmarks/parts/compare_angles.h"
-
 #include "core/base/degrees.h"
 #include "recordings/motion/mot.h"
 

@@ -22,13 +22,13 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/markers/fit_honesty.h"
 #include <glm/geometric.hpp>
 
 #include "app/markers/assess_fit.h"
 #include "app/markers/complete_markers.h"
 #include "app/markers/label_checks.h"
 #include "app/markers/trial_checks.h"
+#include "benchmarks/markers/fit_honesty.h"
 #include "core/pose.h"
 #include "reconstruct/tracks/repair_gaps.h"
 #include "tests/support/bodies/labelled_wearer.h"

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "benchmarks/markers/marker_subject.h"
 #include <glm/geometric.hpp>
 
+#include "benchmarks/markers/marker_subject.h"
 #include "reconstruct/tracks/find_marker_faults.h"
 #include "reconstruct/tracks/repair_gaps.h"
 #include "tests/support/bodies/random_bodies.h"
@@ -87,7 +87,7 @@ MarkerTracks harmed(const MarkerTracks& clean, const Harm& harm, std::uint64_t s
 }
 
 /// Checks and repairs the tracks, as a user does before the fit.
-MarkerTracks mended(const MarkerTracks& raw) {
+MarkerTracks repaired(const MarkerTracks& raw) {
   return reconstruct::repair_gaps(reconstruct::find_marker_faults(raw).tracks).tracks;
 }
 
@@ -135,7 +135,7 @@ int measure_dropouts(const std::filesystem::path& mocap) {
   std::printf("joints against those of the clean tracks, all %zu\n",
               clean.estimate.motion.skeleton.joints.size());
   const auto measure = [&](const Harm& harm, std::uint64_t seed, std::string name) {
-    const std::vector<MarkerTracks> trials{mended(harmed(tracks, harm, seed))};
+    const std::vector<MarkerTracks> trials{repaired(harmed(tracks, harm, seed))};
     const Body body = fit_person(trials).body;
     compare(solve(body, trials[0]).estimate.motion, clean.estimate.motion, name);
     name = "  with the clean tracks' body";

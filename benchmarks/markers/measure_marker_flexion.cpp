@@ -9,7 +9,6 @@
 
 #include "benchmarks/markers/marker_subject.h"
 #include "benchmarks/parts/compare_angles.h"
-
 #include "core/base/degrees.h"
 
 namespace marey {
@@ -18,7 +17,7 @@ namespace {
 struct Trial {
   std::string name;
   std::string tracks;
-  std::string angles;  ///< Empty: nobody's.
+  std::string angles;  ///< Empty: of no subject.
   /// Their frames in between are left out.
   double wrong_from_s = 0.0;
   double wrong_to_s = 0.0;

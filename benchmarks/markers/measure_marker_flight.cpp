@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "benchmarks/markers/marker_subject.h"
-
 #include "reconstruct/motion/find_flights.h"
 
 namespace marey {

@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/markers/marker_subject.h"
 #include <glm/geometric.hpp>
+
+#include "benchmarks/markers/marker_subject.h"
 
 namespace marey {
 namespace {

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/markers/marker_subject.h"
 #include <glm/geometric.hpp>
 #include <malloc.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "benchmarks/markers/marker_subject.h"
 #include "core/base/assert.h"
 #include "core/base/quantile.h"
 #include "tests/support/program/count_allocations.h"

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/markers/marker_subject.h"
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "benchmarks/markers/marker_subject.h"
 #include "core/pose.h"
 #include "recordings/base/atomic_file.h"
 #include "tests/support/files/acclaim.h"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Compares subjects and motions that are fitted to labelled markers with published results
-// of the same recordings:
+// Compares subjects and motions that are fitted to labelled markers with published
+// results of the same recordings:
 //
 //   measure_markers QUESTION ../shared/data/mocap
 //

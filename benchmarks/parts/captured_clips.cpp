@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "benchmarks/parts/stand_as_marey.h"
-
 #include "core/humanoid.h"
 #include "core/motion.h"
 #include "core/transform.h"

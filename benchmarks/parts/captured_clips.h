@@ -51,9 +51,9 @@ struct CapturedPair {
 /// which they are furthest. The measure is the sum of the wrists' distances from the hips
 /// and of the other ankle's distance from the standing one. Pairs with a difference of
 /// less than 0.15 m are left out. The other foot also stands if its ankle is low and
-/// moves less than 3 cm between the two frames. Returns at most `maximum` pairs with the
-/// largest differences, in order of time.
+/// moves less than 3 cm between the two frames. Returns at most `max_pairs` pairs with
+/// the largest differences, in order of time.
 [[nodiscard]] std::vector<CapturedPair> choose_pairs(const CapturedClip& clip,
-                                                     std::size_t maximum);
+                                                     std::size_t max_pairs);
 
 }  // namespace marey

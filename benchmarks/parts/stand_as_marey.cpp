@@ -9,12 +9,12 @@
 namespace marey {
 
 Result<retarget::BodyFrame> stand_as_marey(const retarget::FileUnit& unit,
-                                               Motion& motion) {
+                                           Motion& motion) {
   auto bones = retarget::identify_bones(motion.skeleton);
   if (!bones) return bones.error();
   if (!motion.poses.empty() && !retarget::stands_at_rest(motion.skeleton, *bones)) {
     const auto* const known = retarget::named_neutral(motion.skeleton);
-    retarget::rest_as_t_pose(
+    retarget::set_rest_t_pose(
         motion, *bones, retarget::up_of_motion(motion, *bones).axis, known);
   }
   auto frame = retarget::find_body_frame(motion.skeleton, unit, {}, *bones);

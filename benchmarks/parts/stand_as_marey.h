@@ -12,7 +12,7 @@ namespace marey {
 /// Marks the bones of a motion from a file, and transforms it into marey's frame, in the
 /// same way as `marey`. Returns the transform. Errors: identify_bones()'s and
 /// find_body_frame()'s.
-[[nodiscard]] Result<retarget::BodyFrame> stand_as_marey(
-    const retarget::FileUnit& unit, Motion& motion);
+[[nodiscard]] Result<retarget::BodyFrame> stand_as_marey(const retarget::FileUnit& unit,
+                                                         Motion& motion);
 
 }  // namespace marey

@@ -15,7 +15,6 @@
 #include "benchmarks/parts/result_table.h"
 #include "benchmarks/retarget/measure_spines.h"
 #include "benchmarks/retarget/scaled_bodies.h"
-
 #include "core/pose.h"
 #include "retarget/body/body_map.h"
 #include "retarget/contacts/measure_contacts.h"

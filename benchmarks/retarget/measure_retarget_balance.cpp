@@ -15,7 +15,6 @@
 #include "benchmarks/parts/captured_clips.h"
 #include "benchmarks/parts/result_table.h"
 #include "benchmarks/retarget/scaled_bodies.h"
-
 #include "retarget/body/anthropometry.h"
 #include "retarget/contacts/measure_contacts.h"
 #include "retarget/motion/retarget_motion.h"

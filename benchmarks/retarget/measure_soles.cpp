@@ -10,11 +10,11 @@
 #include <filesystem>
 #include <string>
 
-#include "benchmarks/parts/result_table.h"
-#include "benchmarks/parts/stand_as_marey.h"
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "benchmarks/parts/result_table.h"
+#include "benchmarks/parts/stand_as_marey.h"
 #include "core/base/frame_range.h"
 #include "core/human/average_proportions.h"
 #include "core/pose.h"
@@ -27,9 +27,9 @@ namespace marey {
 namespace {
 
 struct SkinFigures {
-  double deepest_mm = 0.0;  ///< Largest depth of the skin below the floor.
-  int deep_frames = 0;      ///< Frames with a depth of more than 5 mm.
-  std::string deepest_at;   ///< Joint and frame of the largest depth.
+  double max_depth_mm = 0.0;  ///< Largest depth of the skin below the floor.
+  int deep_frames = 0;        ///< Frames with a depth of more than 5 mm.
+  std::string max_depth_at;   ///< Joint and frame of the largest depth.
 };
 
 SkinFigures measure_skin(const recordings::Character& file,
@@ -48,9 +48,9 @@ SkinFigures measure_skin(const recordings::Character& file,
     }
     constexpr double kDeep_mm = 5.0;
     if (lowest_mm < -kDeep_mm) ++out.deep_frames;
-    if (-lowest_mm <= out.deepest_mm) continue;
-    out.deepest_mm = -lowest_mm;
-    out.deepest_at =
+    if (-lowest_mm <= out.max_depth_mm) continue;
+    out.max_depth_mm = -lowest_mm;
+    out.max_depth_at =
         file.skeleton[file.mesh->skin[lowest].joints[0]].name + " " + std::to_string(t);
   }
   return out;
@@ -125,9 +125,9 @@ Status add_row(const std::filesystem::path& glb,
   const SkinFigures skin = measure_skin(*file, *frame);
   table.rows.push_back({glb.stem().string(),
                         frame->stature_m,
-                        skin.deepest_mm,
+                        skin.max_depth_mm,
                         static_cast<double>(skin.deep_frames),
-                        skin.deepest_at,
+                        skin.max_depth_at,
                         worst_drift_mm(motion, *map, contacts),
                         tilt_of_arms_deg(motion.skeleton)});
   return Done{};

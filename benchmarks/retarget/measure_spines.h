@@ -6,7 +6,6 @@
 
 #include "benchmarks/parts/captured_clips.h"
 #include "benchmarks/parts/result_table.h"
-
 #include "core/base/result.h"
 
 namespace marey {

@@ -19,9 +19,9 @@
 #include <utility>
 #include <vector>
 
-#include "benchmarks/sessions/accuracy_parts.h"
 #include <glm/geometric.hpp>
 
+#include "benchmarks/sessions/accuracy_parts.h"
 #include "core/base/quantile.h"
 #include "core/humanoid.h"
 #include "recordings/motion/motion_tables.h"

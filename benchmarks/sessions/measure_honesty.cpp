@@ -8,9 +8,9 @@
 #include <map>
 #include <utility>
 
-#include "benchmarks/sessions/accuracy_parts.h"
 #include <glm/geometric.hpp>
 
+#include "benchmarks/sessions/accuracy_parts.h"
 #include "core/base/quantile.h"
 #include "core/humanoid.h"
 #include "core/source.h"

@@ -25,9 +25,9 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/sessions/session_mistakes.h"
 #include <glm/geometric.hpp>
 
+#include "benchmarks/sessions/session_mistakes.h"
 #include "core/base/quantile.h"
 #include "recordings/motion/motion_tables.h"
 #include "tests/support/files/text_file.h"

@@ -8,10 +8,10 @@
 #include <set>
 #include <utility>
 
-#include "benchmarks/sessions/accuracy_parts.h"
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "benchmarks/sessions/accuracy_parts.h"
 #include "core/base/quantile.h"
 #include "core/humanoid.h"
 #include "core/source.h"

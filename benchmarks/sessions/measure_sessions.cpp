@@ -19,11 +19,11 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/sessions/session_rows.h"
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <time.h>
 
+#include "benchmarks/sessions/session_rows.h"
 #include "core/base/parallel.h"
 #include "tests/reconstruct/answer_session.h"
 #include "tests/support/program/thread_time.h"

@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "benchmarks/sessions/session_rows.h"
-
 #include "core/base/quantile.h"
 
 namespace marey::benchmarks {

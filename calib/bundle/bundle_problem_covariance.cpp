@@ -21,7 +21,8 @@ constexpr double kCommonShare = 0.03;
 
 /// Returns the covariance of the first `shared` columns of a normal matrix, the others
 /// eliminated.
-std::optional<Eigen::MatrixXd> leading_covariance(const SparseColumns& normal, int shared) {
+std::optional<Eigen::MatrixXd> leading_covariance(const SparseColumns& normal,
+                                                  int shared) {
   Eigen::MatrixXd information = Eigen::MatrixXd(normal.topLeftCorner(shared, shared));
   const int rest = static_cast<int>(normal.cols()) - shared;
   if (rest > 0) {

@@ -58,8 +58,8 @@ void mark_outliers(RigModel& model) {
   for (std::size_t i = 0; i < own.size(); ++i) {
     Sighting& sighting = model.sightings[i];
     // A threshold for eight coordinates of a tag is lower than for the two of a point.
-    const double maximum = (sighting.count == 4 ? 3.0 : 3.7) * usual[sighting.camera];
-    sighting.is_outlier = !own[i] || *own[i] > maximum;
+    const double max_px = (sighting.count == 4 ? 3.0 : 3.7) * usual[sighting.camera];
+    sighting.is_outlier = !own[i] || *own[i] > max_px;
   }
 }
 

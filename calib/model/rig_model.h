@@ -28,7 +28,7 @@ struct Piece {
   RigidTransform target_from_piece;
   double size_m = 1.0;        ///< Edge of its black square. [m]
   bool is_size_known = true;  ///< False: `size_m` is estimated.
-  bool is_placed = true;  ///< False until the pose on the target is estimated.
+  bool is_placed = true;      ///< False until the pose on the target is estimated.
 };
 
 /// A rigid object that cameras see: a board, a wand, or the static tags of the scene.

@@ -159,17 +159,17 @@ struct SightingCost::BlockIndices {
   std::size_t warp = 0;
 };
 
-SightingCost::BlockIndices SightingCost::places() const {
-  BlockIndices places;
+SightingCost::BlockIndices SightingCost::block_indices() const {
+  BlockIndices indices;
   std::size_t next = kFirstPose + (parts_.spline ? 4 : 1);
-  places.clock = next;
+  indices.clock = next;
   next += parts_.spline ? 1 : 0;
-  places.shrinkage = next;
+  indices.shrinkage = next;
   next += parts_.shrinks ? 1 : 0;
-  places.piece = next;
+  indices.piece = next;
   next += parts_.piece ? 1 : 0;
-  places.warp = next;
-  return places;
+  indices.warp = next;
+  return indices;
 }
 
 TargetPose SightingCost::target_pose(const double* const* blocks) const {
@@ -201,7 +201,7 @@ struct SightingCost::View {
 };
 
 bool SightingCost::project_target(const double* const* blocks, View& view) const {
-  const BlockIndices at = places();
+  const BlockIndices at = block_indices();
   view.target = target_pose(blocks);
   const double* camera = blocks[1];
   const Eigen::Matrix3d camera_from_world =
@@ -283,7 +283,7 @@ void SightingCost::put_target(const View& view, double** jacobians) const {
           return d;
         });
   }
-  const std::size_t clock = places().clock;
+  const std::size_t clock = block_indices().clock;
   put(view, jacobians[clock], clock, 3, [&](std::size_t, const CornerSight& s) -> Rows {
     const Eigen::Vector2d by_time =
         s.world * (spline.rotation_by_u.cross(s.from_target) + spline.translation_by_u) /
@@ -295,7 +295,7 @@ void SightingCost::put_target(const View& view, double** jacobians) const {
 }
 
 void SightingCost::put_rest(const View& view, double** jacobians) const {
-  const BlockIndices at = places();
+  const BlockIndices at = block_indices();
   const Eigen::Matrix3d& rotation = view.target.rotation;
   if (parts_.shrinks && jacobians[at.shrinkage]) {
     Eigen::Map<Eigen::Matrix<double, 8, 2, Eigen::RowMajor>> out(jacobians[at.shrinkage]);

@@ -84,7 +84,7 @@ class SightingCost final : public ceres::CostFunction {
   struct BlockIndices;
   struct View;
 
-  [[nodiscard]] BlockIndices places() const;
+  [[nodiscard]] BlockIndices block_indices() const;
   [[nodiscard]] TargetPose target_pose(const double* const* blocks) const;
   [[nodiscard]] bool project_target(const double* const* blocks, View& view) const;
   template <class OfCorner>

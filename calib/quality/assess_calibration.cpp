@@ -16,7 +16,7 @@ namespace marey::calib {
 namespace {
 
 /// Merges findings that several cameras share into one, at the position of the first.
-std::vector<Finding> merge_shared(std::vector<MergeableFinding> found) {
+std::vector<Finding> merge_findings(std::vector<MergeableFinding> found) {
   std::vector<Finding> out;
   for (std::size_t i = 0; i < found.size(); ++i) {
     MergeableFinding& first = found[i];
@@ -54,7 +54,7 @@ std::vector<Finding> assess_calibration(const CalibrationReport& report) {
   assess_timing(list);
   assess_residuals(list);
   assess_target_views(list);
-  std::vector<Finding> out = merge_shared(std::move(list.found));
+  std::vector<Finding> out = merge_findings(std::move(list.found));
   std::stable_sort(out.begin(), out.end(), [](const Finding& a, const Finding& b) {
     return a.severity > b.severity;
   });

@@ -61,7 +61,7 @@ void assess_level(FindingCollector& list, std::size_t c) {
              "it did not move, and that its video starts with the others'")
         .measured(camera.inlier_rms_px, kWorseThanOthers * *others, "px");
   } else if (is_poor || camera.inlier_rms_px > kFairRmsPx * scale) {
-    list.add_shared(
+    list.add_mergeable(
             is_poor ? Severity::kPoor : Severity::kFair,
             "residual",
             c,
@@ -108,7 +108,7 @@ void assess_outliers(FindingCollector& list, std::size_t c) {
     return;
   }
   if (share <= kFairOutliers) return;
-  list.add_shared(
+  list.add_mergeable(
           severity_of(share, kPoorOutliers),
           "outliers",
           c,
@@ -161,7 +161,7 @@ void assess_lag(FindingCollector& list, std::size_t c) {
   const double ms =
       list.report.rate_hz > 0.0 ? 1e3 * camera.lag->frames / list.report.rate_hz : 0.0;
   const char* way = camera.lag->frames > 0.0 ? "later" : "earlier";
-  list.add_shared(
+  list.add_mergeable(
           Severity::kFair,
           "clock",
           c,

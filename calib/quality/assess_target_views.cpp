@@ -29,7 +29,7 @@ void assess_coverage(FindingCollector& list, std::size_t c) {
   const CameraQuality& quality = list.report.rig.quality[c];
   const std::string target = list.target();
   if (quality.coverage < kFairCoverage) {
-    list.add_shared(
+    list.add_mergeable(
             quality.coverage < kPoorCoverage ? Severity::kPoor : Severity::kFair,
             "coverage",
             c,
@@ -74,7 +74,7 @@ void assess_camera(FindingCollector& list, std::size_t c) {
   const CameraMeasures& camera = list.report.cameras[c];
   const std::string target = list.target();
   if (camera.instants < kFairViews) {
-    list.add_shared(
+    list.add_mergeable(
             camera.instants < kPoorViews ? Severity::kPoor : Severity::kFair,
             "views",
             c,
@@ -95,7 +95,7 @@ void assess_camera(FindingCollector& list, std::size_t c) {
   }
   assess_coverage(list, c);
   if (!camera.tilts.empty() && camera.p90_tilt_rad < kFairTilt_rad) {
-    list.add_shared(
+    list.add_mergeable(
             Severity::kFair,
             "tilt",
             c,

@@ -38,13 +38,13 @@ struct FindingCollector {
   }
   /// Adds a finding that several cameras may have. `cause_of_many` follows their names
   /// and values in the text.
-  Finding& add_shared(Severity severity,
-                      const char* id,
-                      std::size_t c,
-                      std::string cause,
-                      std::string next,
-                      std::string figure,
-                      std::string cause_of_many) {
+  Finding& add_mergeable(Severity severity,
+                         const char* id,
+                         std::size_t c,
+                         std::string cause,
+                         std::string next,
+                         std::string figure,
+                         std::string cause_of_many) {
     add(severity, id, camera(c), std::move(cause), std::move(next));
     found.back().figure = report.rig.cameras[c].name + " (" + figure + ")";
     found.back().cause = std::move(cause_of_many);

@@ -34,7 +34,7 @@ struct CalibrateOptions : RigOptions {
 /// (CalibratedRig::clocks).
 /// Errors (kBadInput): a camera that never sees the board, or sees too little of it;
 /// groups of cameras that never see the board together; no board in the floor detections;
-/// two floor files swapped or a camera moved between the trials; a board that lies face
+/// two floor files exchanged or a camera moved between the trials; a board that lies face
 /// down or is mirrored; a bundle that does not converge or ends with a median corner
 /// error above 2.5 px (wrong board geometry); tags whose size does not match the gaps
 /// between them.

@@ -94,8 +94,8 @@ Status check_floor(std::span<const Camera> cameras,
     std::snprintf(
         text.data(),
         text.size(),
-        "the two cameras' files look swapped: the board on the floor is %.0f px off as "
-        "given, %.1f px if they are exchanged",
+        "the two cameras' files look exchanged: the board on the floor is %.0f px off as "
+        "given, %.1f px the other way round",
         as_given.worst_px,
         exchanged.worst_px);
     return bad_input(source(pair.first) + " and " + source(pair.second),

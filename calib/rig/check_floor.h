@@ -19,10 +19,10 @@ namespace marey::calib {
 /// disagrees was therefore moved between the trials, or its file is from another camera.
 ///
 /// Errors (kBadInput, naming the videos of `floor`): two files that fit if they are
-/// swapped; otherwise the camera whose view has the largest error. A single floor view
+/// exchanged; otherwise the camera whose view has the largest error. A single floor view
 /// always succeeds. Preconditions: cameras and `floor` have the same order; `floor_views`
 /// contains tags whose shrinkage was not corrected (a pixel or two, compared with tens of
-/// pixels for a swap).
+/// pixels for an exchange).
 /// Cost: one planar pose per view; if views disagree, one per view and pair of views.
 [[nodiscard]] Status check_floor(std::span<const Camera> cameras,
                                  std::span<const BoardView* const> floor_views,

@@ -164,9 +164,9 @@ Result<SolvedRig> solve_choosing_clocks(
   if (!*shared || !(**shared).uncertainty) return solved;
   // Clocks do not improve the fit of a wrong board, for example; and more unknowns always
   // fit slightly better.
-  const double maximum = (clocks_differ ? 1.0 : 0.7) * misfit(shared_rig);
+  const double max_misfit = (clocks_differ ? 1.0 : 0.7) * misfit(shared_rig);
   const bool is_better =
-      misfit(rig) < maximum && rig.sightings > 0.7 * shared_rig.sightings;
+      misfit(rig) < max_misfit && rig.sightings > 0.7 * shared_rig.sightings;
   return is_better ? std::move(solved) : solve_shared();
 }
 

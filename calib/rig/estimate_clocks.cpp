@@ -60,7 +60,7 @@ SeenTags seen_tags(std::span<const Camera> cameras,
 }
 
 /// Returns the tags with the most frames shared by two cameras, in descending order.
-std::vector<TagId> max_shared(const SeenTags& seen, int maximum) {
+std::vector<TagId> most_shared_tags(const SeenTags& seen, int max_tags) {
   std::vector<std::pair<std::size_t, TagId>> by_count;
   for (const auto& [id, views] : seen) {
     std::map<int, std::size_t> cameras;
@@ -74,7 +74,7 @@ std::vector<TagId> max_shared(const SeenTags& seen, int maximum) {
   });
   std::vector<TagId> ids;
   for (const auto& [count, id] : by_count) {
-    if (static_cast<int>(ids.size()) < maximum) ids.push_back(id);
+    if (static_cast<int>(ids.size()) < max_tags) ids.push_back(id);
   }
   return ids;
 }
@@ -87,11 +87,11 @@ using Paths = std::vector<std::map<std::pair<TagId, int>, glm::dvec3>>;
 std::pair<int, int> best_lag(const Paths& paths,
                              std::size_t a,
                              std::size_t b,
-                             int maximum) {
+                             int max_lag) {
   constexpr double kFar_m = 0.2;
   double best = 0.0;
   std::pair<int, int> found{0, 0};
-  for (int i = 0; i <= 2 * maximum; ++i) {
+  for (int i = 0; i <= 2 * max_lag; ++i) {
     const int lag = (i % 2 == 0 ? 1 : -1) * ((i + 1) / 2);  // 0, -1, 1, -2, 2...
     double score = 0.0;
     int count = 0;
@@ -130,7 +130,7 @@ std::vector<double> first_offsets(const SeenTags& seen,
           view.world_from_tag[0].translation;
     }
   }
-  const int maximum = static_cast<int>(std::lround(max_s / step_s));
+  const int max_lag = static_cast<int>(std::lround(max_s / step_s));
   std::vector<std::optional<double>> offset_s(count);
   offset_s[0] = given_s[0];
   while (true) {
@@ -140,7 +140,7 @@ std::vector<double> first_offsets(const SeenTags& seen,
     for (std::size_t a = 0; a < count; ++a) {
       for (std::size_t b = 0; b < count; ++b) {
         if (!offset_s[a] || offset_s[b]) continue;
-        const auto lag = best_lag(paths, a, b, maximum);
+        const auto lag = best_lag(paths, a, b, max_lag);
         if (lag.second <= best.second) continue;
         best = lag;
         from = a;
@@ -245,7 +245,7 @@ std::optional<std::vector<SolvedClock>> estimate_clocks(
     spacing_s = std::min(spacing_s, 1.0 / detections[c].rate.hz);
   }
   spacing_s = std::max(spacing_s, 1.0 / 60.0);
-  for (const TagId id : max_shared(seen, options.max_tags)) {
+  for (const TagId id : most_shared_tags(seen, options.max_tags)) {
     add_tag(id, sizes_m.at(id), seen.at(id), spacing_s, model);
   }
   if (model.sightings.empty()) return std::nullopt;

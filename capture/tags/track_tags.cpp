@@ -58,9 +58,9 @@ PixelBox tiled(const GrayFrame& frame,
     return static_cast<int>(std::floor(x / kTile)) * kTile;
   };
   const auto up = [](double x) { return static_cast<int>(std::ceil(x / kTile)) * kTile; };
-  const glm::dvec2 maximum(frame.width_px, frame.height_px);
-  const glm::dvec2 low = glm::clamp(low_px, glm::dvec2(0.0), maximum);
-  const glm::dvec2 high = glm::clamp(high_px, glm::dvec2(0.0), maximum);
+  const glm::dvec2 size_px(frame.width_px, frame.height_px);
+  const glm::dvec2 low = glm::clamp(low_px, glm::dvec2(0.0), size_px);
+  const glm::dvec2 high = glm::clamp(high_px, glm::dvec2(0.0), size_px);
   return {down(low.x),
           down(low.y),
           std::min(up(high.x), frame.width_px),

@@ -44,7 +44,7 @@ struct ProbeCameraOptions {
 
 /// Returns "MJPG 1280x720 at 29.9 of 30 frames/s, exposure 4 ms": the chosen settings and
 /// the measured rate. Returns only the cause for a camera in trouble.
-[[nodiscard]] std::string summary(const CameraProbe& check);
+[[nodiscard]] std::string summary(const CameraProbe& probe);
 
 /// Returns "MJPG 1920x1080 (30), 1280x720 (60, 30)": one line for each format.
 [[nodiscard]] std::vector<std::string> offers(const DeviceInfo& device);

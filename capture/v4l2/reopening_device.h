@@ -19,7 +19,7 @@ enum class CameraState {
   kLost,       ///< Unplugged, or failing: reconnection is attempted repeatedly.
 };
 
-/// "streaming", "silent", "lost".
+/// Returns "streaming", "silent" or "lost".
 [[nodiscard]] const char* name(CameraState state);
 
 /// Connection status of a camera.

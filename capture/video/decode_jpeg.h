@@ -13,8 +13,8 @@
 namespace marey::capture {
 
 /// Decodes only the brightness, with libjpeg, and reports damaged images. TurboJPEG
-/// keeps only the text of the last warning, which does not distinguish missing parts of an
-/// image from harmless bytes between its markers, which cameras write.
+/// keeps only the text of the last warning, which does not distinguish missing parts of
+/// an image from harmless bytes between its markers, which cameras write.
 class JpegDecoder {
  public:
   JpegDecoder();

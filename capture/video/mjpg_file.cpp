@@ -61,8 +61,8 @@ bool holds_jpeg(const std::filesystem::path& path) {
 
 class MjpgFile final : public FrameSource {
  public:
-  MjpgFile(VideoReader video, StreamInfo info, int minimum)
-      : video_(std::move(video)), info_(std::move(info)), min_frames_(minimum) {
+  MjpgFile(VideoReader video, StreamInfo info, int min_frames)
+      : video_(std::move(video)), info_(std::move(info)), min_frames_(min_frames) {
     gray_.create(info_.height_px, info_.width_px, CV_8UC1);
   }
 
@@ -131,16 +131,16 @@ std::unique_ptr<FrameSource> open_mjpg_file(const std::filesystem::path& path,
   info.height_px = facts.height_px;
   if (facts.rate_hz > 0.0) info.rate = FrameRate{facts.rate_hz};
   if (info.width_px <= 0 || info.height_px <= 0) return nullptr;
-  int minimum = 1;
+  int min_frames = 1;
   if (facts.frames >= 1.0 && facts.frames < 1e9) {
     const int promised = static_cast<int>(std::lround(facts.frames));
     info.expected_frames = promised;
     // AVI stores its number of frames. Matroska stores at most a duration, in which
     // frames dropped by the camera are not included.
     if (kind_by_extension(path) == ".avi")
-      minimum = promised - std::max(2, promised / 50);
+      min_frames = promised - std::max(2, promised / 50);
   }
-  return std::make_unique<MjpgFile>(*std::move(video), std::move(info), minimum);
+  return std::make_unique<MjpgFile>(*std::move(video), std::move(info), min_frames);
 }
 
 }  // namespace marey::capture

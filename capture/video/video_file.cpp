@@ -21,7 +21,7 @@ namespace {
 /// Minimum number of frames of a complete video, and the number in its header.
 struct Promise {
   int expected = 0;
-  int minimum = 0;
+  int min_frames = 0;
 };
 
 std::optional<Promise> promise_of(const std::filesystem::path& path,
@@ -128,7 +128,7 @@ Result<std::unique_ptr<FrameSource>> open_video_file(const std::filesystem::path
   if (facts.rate_hz > 0.0) info.rate = FrameRate{facts.rate_hz};
   const auto promise = promise_of(path, facts);
   if (promise) info.expected_frames = promise->expected;
-  const int min_frames = promise ? promise->minimum : 1;
+  const int min_frames = promise ? promise->min_frames : 1;
   return std::unique_ptr<FrameSource>(
       std::make_unique<VideoFile>(*std::move(video), std::move(info), min_frames));
 }

@@ -4,7 +4,8 @@
 
 namespace marey {
 
-/// Frames `first` to `last` of a motion, a video or a trial, both included, counted from 0.
+/// Frames `first` to `last` of a motion, a video or a trial, both included, counted from
+/// 0.
 struct FrameRange {
   int first = 0;
   int last = 0;

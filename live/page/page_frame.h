@@ -37,8 +37,8 @@ struct PageTracking {
 
 /// One skeleton in one frame.
 struct PageFigure {
-  std::size_t joints = 0;               ///< Number of joints of the scene's skeleton.
-  const Pose* pose = nullptr;           ///< nullptr: absent in this frame.
+  std::size_t joints = 0;      ///< Number of joints of the scene's skeleton.
+  const Pose* pose = nullptr;  ///< nullptr: absent in this frame.
   std::span<const JointUncertainty> uncertainty{};  ///< One for each joint, or empty.
   std::optional<PageBalance> balance{};
   std::optional<PageTracking> tracking{};

@@ -91,8 +91,8 @@ bool has_etag(std::string_view if_none_match, std::string_view etag) {
   return false;
 }
 
-AuthorizedRequest authorize_request(const RequestHead& head, const AccessPolicy& policy) {
-  AuthorizedRequest out;
+RequestVerdict authorize_request(const RequestHead& head, const AccessPolicy& policy) {
+  RequestVerdict out;
   std::string_view query = head.target;
   out.path = take_until('?', query);
   if (!is_our_host(head.host, policy)) {

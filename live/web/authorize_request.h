@@ -33,8 +33,8 @@ enum class Verdict {
   kWrongToken,
 };
 
-/// Result of authorize_request().
-struct AuthorizedRequest {
+/// The verdict on a request, and its path.
+struct RequestVerdict {
   Verdict verdict = Verdict::kWrongTarget;
   std::string_view path{};      ///< Without the query; a view into the head's target.
   bool token_in_query = false;  ///< The query has the right token: set the cookie.
@@ -46,8 +46,8 @@ struct AuthorizedRequest {
 /// point it at this machine. Origin, which browsers send with every request of a foreign
 /// page and with WebSockets, must be "http://" followed by Host. The token is the query's
 /// "token" or the cookie "marey_token". Never allocates.
-[[nodiscard]] AuthorizedRequest authorize_request(const RequestHead& head,
-                                                  const AccessPolicy& policy);
+[[nodiscard]] RequestVerdict authorize_request(const RequestHead& head,
+                                               const AccessPolicy& policy);
 
 /// Returns the value of a cookie in a Cookie header, or of a parameter in a query; empty
 /// if there is none. Nothing is decoded.

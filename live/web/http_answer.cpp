@@ -13,8 +13,8 @@ struct HttpStatus {
 };
 
 struct Extras {
-  std::string_view host;   ///< Checked; empty: unknown.
-  std::string_view token;  ///< To set as a cookie; empty: none.
+  std::string_view host;    ///< Checked; empty: unknown.
+  std::string_view token;   ///< To set as a cookie; empty: none.
   std::string_view policy;  ///< Replaces the page's policy; empty: the page's.
   bool keep_alive = false;
   bool is_head = false;
@@ -41,10 +41,10 @@ std::string content_policy(std::string_view host) {
 std::string begin_head(const HttpStatus& status, const Extras& extras) {
   std::string head =
       "HTTP/1.1 " + std::to_string(status.code) + " " + status.name + "\r\n";
-  add_header(head,
-             "Content-Security-Policy",
-             extras.policy.empty() ? content_policy(extras.host)
-                                   : std::string(extras.policy));
+  add_header(
+      head,
+      "Content-Security-Policy",
+      extras.policy.empty() ? content_policy(extras.host) : std::string(extras.policy));
   add_header(head, "X-Content-Type-Options", "nosniff");
   add_header(head, "Referrer-Policy", "no-referrer");
   add_header(head, "Cross-Origin-Resource-Policy", "same-origin");
@@ -93,7 +93,7 @@ HttpAnswer send(const WebContent& content,
 
 }  // namespace
 
-HttpAnswer answer_request(const AuthorizedRequest& request,
+HttpAnswer answer_request(const RequestVerdict& request,
                           const RequestHead& head,
                           std::string_view if_none_match,
                           std::string_view token,
@@ -107,8 +107,7 @@ HttpAnswer answer_request(const AuthorizedRequest& request,
       break;
     case Verdict::kWrongMethod:
       state.count(&WebCounts::refused_request);
-      return words(
-          {405, "Method Not Allowed"}, "Only GET and HEAD are allowed.", extras);
+      return words({405, "Method Not Allowed"}, "Only GET and HEAD are allowed.", extras);
     case Verdict::kWrongTarget:
       state.count(&WebCounts::refused_request);
       return words({400, "Bad Request"}, "The path is not valid.", extras);
@@ -151,8 +150,7 @@ HttpAnswer reject_request(RejectReason why, WebState& state) {
                    {});
     case RejectReason::kNoUpgrade:
       state.count(&WebCounts::refused_request);
-      return words(
-          {426, "Upgrade Required"}, "This path accepts only WebSockets.", {});
+      return words({426, "Upgrade Required"}, "This path accepts only WebSockets.", {});
   }
   return {};
 }

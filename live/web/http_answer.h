@@ -28,7 +28,7 @@ enum class RejectReason {
 /// Answers a checked request with the content, with 304 if the browser already has it, or
 /// with an error status. Counts refused requests. `keep_alive`: the connection stays
 /// open.
-[[nodiscard]] HttpAnswer answer_request(const AuthorizedRequest& request,
+[[nodiscard]] HttpAnswer answer_request(const RequestVerdict& request,
                                         const RequestHead& head,
                                         std::string_view if_none_match,
                                         std::string_view token,

@@ -17,7 +17,7 @@ struct WebCounts {
   std::uint64_t pages_opened = 0;
   std::uint64_t pages_over_rate = 0;     ///< Closed: they sent too many messages.
   std::uint64_t malformed_messages = 0;  ///< Too large, binary, or not WebSocket data.
-  std::uint64_t dropped_texts = 0;  ///< Received texts that were not taken in time.
+  std::uint64_t dropped_texts = 0;       ///< Received texts that were not taken in time.
   std::uint64_t sent_messages = 0;
 };
 

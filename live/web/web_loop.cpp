@@ -94,7 +94,7 @@ class FetchSession : public std::enable_shared_from_this<FetchSession> {
     if (request.count(http::field::origin) > 1) {
       return send(reject_request(RejectReason::kMalformed, server_.state), false);
     }
-    const AuthorizedRequest checked = authorize_request(head, policy_);
+    const RequestVerdict checked = authorize_request(head, policy_);
     if (checked.verdict == Verdict::kAccepted) {
       if (!parser_->is_done()) {  // The request has a body.
         return send(reject_request(RejectReason::kMalformed, server_.state), false);

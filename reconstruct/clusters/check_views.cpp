@@ -154,7 +154,7 @@ Status check_cameras(std::span<const Camera> cameras,
   if (best_px < 0.3 * as_given_px) {
     return bad_input(
         detections[best_a].source + " and " + detections[best_b].source,
-        "the two cameras' files look swapped: " +
+        "the two cameras' files look exchanged: " +
             text("tags disagree by %.0f px as given, and by %.1f px after a swap",
                  as_given_px,
                  best_px),

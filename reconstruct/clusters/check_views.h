@@ -4,16 +4,16 @@
 
 #include <span>
 
+#include "core/base/result.h"
 #include "core/body.h"
 #include "core/camera.h"
 #include "core/detection.h"
-#include "core/base/result.h"
 
 namespace marey::reconstruct {
 
 /// Checks that a trial's videos, the calibration and the tags' sizes belong together,
 /// using tags that two cameras see at once.
-/// Errors (kBadInput), `where` the videos or "[[tags.tag]]": two cameras' files swapped
+/// Errors (kBadInput), `where` the videos or "[[tags.tag]]": two cameras' files exchanged
 /// (found by trying every swap); cameras that do not agree under any swap (moved since
 /// the calibration, or videos that do not start together); tags whose printed size is not
 /// the declared one; all tags off by the same factor, which means the board's size or all

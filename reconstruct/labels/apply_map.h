@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "core/marker_map.h"
 #include "core/base/result.h"
+#include "core/marker_map.h"
 #include "reconstruct/labels/name_markers.h"
 
 namespace marey::reconstruct {

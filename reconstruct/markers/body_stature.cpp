@@ -84,7 +84,8 @@ std::optional<MeasuredStature> stature_of_body(
   if (leg_m) return with_share(*leg_m / kLeg, kSigmaLegs);
   if (head) {
     const double chain_m = trunk_m + glm::length(p[B::kHead]);
-    return with_share(chain_m / (kTrunkPerStature + kHeadPerStature - kHeadTop), kSigmaTrunk);
+    return with_share(chain_m / (kTrunkPerStature + kHeadPerStature - kHeadTop),
+                      kSigmaTrunk);
   }
   if (trunk) return with_share(trunk_m / kTrunkPerStature, kSigmaTrunk);
   if (all({B::kLeftLowerArm, B::kLeftHand, B::kRightLowerArm, B::kRightHand})) {

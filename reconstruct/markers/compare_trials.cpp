@@ -26,7 +26,7 @@ using B = HumanBone;
 
 constexpr std::size_t kComparedFrames = 100;
 constexpr std::size_t kMinPairs = 3;
-// Frames in which posture or a swapped marker shows the other side are fewer.
+// Frames in which posture or an exchanged marker shows the other side are fewer.
 constexpr double kNearlyAll = 0.8;
 // Depth of the landmarks' third dimension: for spines of the pelvis alone it is 0.01, for
 // a trunk with front and back 0.07. [m at a stature of 1.75 m]

@@ -136,7 +136,7 @@ void Fit::scale_to(double stature_m) {
   stature_.stature_m = stature_m;
   average_ = average_proportions(stature_m);
   bundle_.usual = lengths_of(average_);
-  bundle_.model.body = frame_of(average_);
+  bundle_.model.body = body_constants(average_);
   set_length_priors();
 }
 

@@ -4,9 +4,9 @@
 
 #include <span>
 
-#include "core/marker_tracks.h"
 #include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/marker_tracks.h"
 #include "reconstruct/markers/markers_fit.h"
 
 namespace marey::reconstruct {

@@ -24,7 +24,7 @@ bool is_finite(const MarkerSample& sample) {
 MarkerModel to_marker_model(const Body& body) {
   MarkerModel model;
   model.lengths = lengths_of(body.proportions);
-  model.body = frame_of(body);
+  model.body = body_constants(body);
   for (const PlacedMarker& marker : body.markers) {
     const HumanBone bone = solved_segment(marker.segment);
     glm::dvec3 p = marker.p_in_segment;

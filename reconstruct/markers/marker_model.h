@@ -39,7 +39,6 @@ struct SeenMarker {
   double sigma_m = 0.0;  ///< Sample's own sigma, in addition to the marker's.
 };
 
-
 /// Levenberg-Marquardt's method on one frame: markers, pose priors and a prior of the
 /// frame. Storage is fixed: no allocation. Borrows the model.
 class MarkerFrameSolver {

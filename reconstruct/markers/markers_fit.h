@@ -69,8 +69,7 @@ struct MarkersFit {
   Body body;
   std::vector<LabelVerdict> labels;   ///< In the order given.
   std::vector<JointEvidence> joints;  ///< Every bone except the hips.
-  double rms_m =
-      0.0;  ///< Distance of markers from the body, over the chosen instants.
+  double rms_m = 0.0;  ///< Distance of markers from the body, over the chosen instants.
   /// Number of pairs of markers whose median is the first estimate of the stature.
   int stature_pairs = 0;
   /// The stature measured from the markers, even if one was given; nullopt if the markers

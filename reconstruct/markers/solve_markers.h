@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/body.h"
 #include "core/marker_tracks.h"
 #include "core/motion.h"
-#include "core/base/progress.h"
 
 namespace marey::reconstruct {
 

@@ -8,8 +8,8 @@
 #include <cstddef>
 
 #include "core/base/assert.h"
-#include "core/pose.h"
 #include "core/base/quantile.h"
+#include "core/pose.h"
 
 namespace marey::reconstruct {
 namespace {

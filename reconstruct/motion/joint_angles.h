@@ -11,7 +11,8 @@
 namespace marey::reconstruct {
 
 /// The coordinates of OpenSim's models of the whole body, by the names and in the order
-/// of Rajagopal2016. docs/formats/joint_angles.md defines the rotation and the sign of each.
+/// of Rajagopal2016. docs/formats/joint_angles.md defines the rotation and the sign of
+/// each.
 enum class Coordinate : int {
   kPelvisTilt,
   kPelvisList,

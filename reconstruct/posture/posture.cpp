@@ -160,12 +160,12 @@ std::optional<Length> length_of(HumanBone bone) {
   return std::nullopt;
 }
 
-BodyConstants frame_of(const Proportions& proportions) {
+BodyConstants body_constants(const Proportions& proportions) {
   return {-proportions[B::kLeftUpperLeg].y, {}};
 }
 
-BodyConstants frame_of(const Body& body) {
-  BodyConstants frame = frame_of(body.proportions);
+BodyConstants body_constants(const Body& body) {
+  BodyConstants frame = body_constants(body.proportions);
   frame.hinges = body.hinges;
   return frame;
 }

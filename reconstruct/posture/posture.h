@@ -59,15 +59,15 @@ struct BodyConstants {
 /// Converts lengths to rest offsets and back. `like` provides the offsets that lengths do
 /// not determine: toes, tips.
 [[nodiscard]] Proportions to_proportions(const Lengths& lengths,
-                                         const BodyConstants& frame,
+                                         const BodyConstants& body,
                                          const Proportions& like);
 [[nodiscard]] Lengths lengths_of(const Proportions& proportions);
 /// Returns the length that is the distance of a bone's joint from its parent's; nullopt
 /// for the hips, and for distances that the fit does not estimate.
 [[nodiscard]] std::optional<Length> length_of(HumanBone bone);
-[[nodiscard]] BodyConstants frame_of(const Proportions& proportions);
-/// Returns the frame with the body's hinges; those of proportions alone are straight.
-[[nodiscard]] BodyConstants frame_of(const Body& body);
+[[nodiscard]] BodyConstants body_constants(const Proportions& proportions);
+/// Returns the constants with the body's hinges; those of proportions alone are straight.
+[[nodiscard]] BodyConstants body_constants(const Body& body);
 
 /// A bone's frame in the world, for the solver's scalar type.
 template <class T>

@@ -45,7 +45,7 @@ class PostureDescent {
   // Damping below this does not shorten a step.
   static constexpr double kNearlyFree = 1e-3;
 
-  /// Equations at the posture and at the candidate; their roles are swapped.
+  /// Equations at the posture and at the candidate; their roles are exchanged.
   std::array<PostureEquations, 2> equations_;
   ArrowFactor factor_;
   int iterations_ = 0;

@@ -34,7 +34,7 @@ class FrameFinder {
     frames_.assign(standing.begin(), standing.end());
     frames_.insert(frames_.end(), moving.begin(), moving.end());
     out_.lengths = lengths_of(average);
-    out_.body = frame_of(average);
+    out_.body = body_constants(average);
   }
 
   Result<SegmentFrames> run() {
@@ -167,7 +167,7 @@ class FrameFinder {
     const glm::dvec3 hinge_in_upper = glm::normalize(in_upper);
     const glm::dvec3 hinge_in_lower = glm::normalize(in_lower);
     double best_m = 0.0;
-    double minimum = std::numeric_limits<double>::infinity();
+    double min_m2 = std::numeric_limits<double>::infinity();
     for (double slide_m = -kMaxDistance_m; slide_m <= kMaxDistance_m;
          slide_m += kStep_m) {
       const glm::dvec3 upper =
@@ -178,8 +178,8 @@ class FrameFinder {
           off_axis_m2(bones.upper, c.root_in_upper, upper) +
           off_axis_m2(bones.lower, c.mid_in_lower + slide_m * hinge_in_lower, lower) +
           kInertia * kInertia * slide_m * slide_m;
-      if (off_m2 >= minimum) continue;
-      minimum = off_m2;
+      if (off_m2 >= min_m2) continue;
+      min_m2 = off_m2;
       best_m = slide_m;
     }
     c.mid_in_upper += best_m * hinge_in_upper;

@@ -142,13 +142,13 @@ class Grouping {
   /// Joins parts of segments with the groups that they move with, smallest turn first.
   void join_loose() {
     for (;;) {
-      double minimum = kMovesAsOne_rad;
+      double min_rad = kMovesAsOne_rad;
       std::pair<std::size_t, std::size_t> best{0, 0};
       for (std::size_t i = 0; i < groups_.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
           const auto between = joined_turn(i, j);
-          if (!between || *between >= minimum) continue;
-          minimum = *between;
+          if (!between || *between >= min_rad) continue;
+          min_rad = *between;
           best = {j, i};
         }
       }

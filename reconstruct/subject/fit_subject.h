@@ -4,10 +4,10 @@
 
 #include <span>
 
-#include "core/camera.h"
-#include "core/detection.h"
 #include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/camera.h"
+#include "core/detection.h"
 #include "reconstruct/subject/subject_fit.h"
 
 namespace marey::reconstruct {

@@ -14,7 +14,7 @@ const RigidTransform* BodyModel::place(std::size_t tag) const {
 BodyModel to_model(const Body& body) {
   BodyModel model;
   model.lengths = lengths_of(body.proportions);
-  model.body = frame_of(body);
+  model.body = body_constants(body);
   for (const PlacedTag& placed : body.tags) {
     model.segment_from_tag[model.tags.size()] = placed.segment_from_tag;
     model.tags.push_back(placed.tag);

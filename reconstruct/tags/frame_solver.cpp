@@ -42,13 +42,13 @@ std::vector<TagCluster> clusters_of(const BodyModel& model) {
 
 /// Returns the largest rotation between blocks of two postures. [rad]
 double turn_between(const Posture& a, const Posture& b) {
-  double maximum = 0.0;
+  double max_rad = 0.0;
   for (const PoseParameter parameter : kAllPoseParameters) {
     if (!is_rotation(parameter)) continue;
     const glm::dquat turn = glm::conjugate(a.rotation(parameter)) * b.rotation(parameter);
-    maximum = std::max(maximum, glm::length(rotation_vector(turn)));
+    max_rad = std::max(max_rad, glm::length(rotation_vector(turn)));
   }
-  return maximum;
+  return max_rad;
 }
 
 }  // namespace
@@ -161,7 +161,7 @@ void FrameSolver::retry_limbs(std::span<const TagSighting> frame,
       worst_px = std::max(worst_px, misfit_px(s, posture));
     }
     if (worst_px < kMaxMisfit_px) continue;
-    double minimum = refine(frame, predicted, posture);
+    double min_cost = refine(frame, predicted, posture);
     const Posture start = posture;
     for (const TagSighting* s : of_limb) {
       for (const RigidTransform& world_from_tag : planar_candidates(
@@ -171,8 +171,8 @@ void FrameSolver::retry_limbs(std::span<const TagSighting> frame,
         Posture candidate =
             posture_from_segments(segments, model_->lengths, model_->body, start);
         const double cost = refine(frame, predicted, candidate);
-        if (cost >= minimum) continue;
-        minimum = cost;
+        if (cost >= min_cost) continue;
+        min_cost = cost;
         posture = candidate;
       }
     }

@@ -143,8 +143,8 @@ std::vector<Posture> alternative_postures(const BodyModel& model,
 }  // namespace
 
 std::vector<SingleViewInterval> single_view_intervals(const BodyModel& model,
-                                        const Sightings& sightings,
-                                        std::size_t max_frames) {
+                                                      const Sightings& sightings,
+                                                      std::size_t max_frames) {
   std::vector<SingleViewInterval> found;
   for (std::size_t l = 0; l < human_limbs().size(); ++l) {
     SingleViewInterval run{l, 0, 0};

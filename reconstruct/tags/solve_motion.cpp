@@ -10,9 +10,9 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/quantile.h"
 #include "core/humanoid.h"
 #include "core/pose.h"
-#include "core/base/quantile.h"
 #include "reconstruct/posture/point_sigma.h"
 #include "reconstruct/tags/frame_solver.h"
 #include "reconstruct/tags/resolve_planar_ambiguities.h"

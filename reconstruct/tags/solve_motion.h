@@ -7,12 +7,12 @@
 #include <span>
 #include <vector>
 
+#include "core/base/progress.h"
+#include "core/base/result.h"
 #include "core/body.h"
 #include "core/camera.h"
 #include "core/detection.h"
 #include "core/motion.h"
-#include "core/base/progress.h"
-#include "core/base/result.h"
 #include "reconstruct/posture/measured_sigma.h"
 
 namespace marey::reconstruct {

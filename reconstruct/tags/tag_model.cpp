@@ -75,7 +75,7 @@ PosturePrior without_phase(const PosturePrior& prior, const PostureVector& step)
 TagModel to_tag_model(const Body& body, std::span<const Camera> cameras) {
   TagModel model;
   model.lengths = lengths_of(body.proportions);
-  model.body = frame_of(body);
+  model.body = body_constants(body);
   for (const PlacedTag& placed : body.tags) {
     ModelTag tag{
         placed.tag, solved_segment(placed.tag.segment), placed.segment_from_tag, {}};

@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "core/base/result.h"
 #include "core/body.h"
 #include "core/camera.h"
 #include "core/detection.h"
 #include "core/motion.h"
-#include "core/base/result.h"
 
 namespace marey::reconstruct {
 

@@ -11,8 +11,8 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
-#include "core/pose.h"
 #include "core/base/quantile.h"
+#include "core/pose.h"
 #include "reconstruct/clusters/sightings.h"
 
 namespace marey::reconstruct {

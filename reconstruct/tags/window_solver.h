@@ -78,9 +78,9 @@ class WindowSolver {
                           SlipEstimate& estimate,
                           const Progress& progress);
   [[nodiscard]] bool add_slip_evidence(std::size_t first,
-                           std::span<const Eigen::MatrixXd> covariances,
-                           ceres::Problem& problem,
-                           SlipEstimate& estimate);
+                                       std::span<const Eigen::MatrixXd> covariances,
+                                       ceres::Problem& problem,
+                                       SlipEstimate& estimate);
   void build(std::size_t first,
              std::size_t count,
              std::size_t held,

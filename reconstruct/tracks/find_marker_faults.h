@@ -20,7 +20,8 @@ enum class TrackFault {
   kJump,       ///< Off its place without a gap before and after.
 };
 
-/// Returns "no-number", "frozen", "swapped", "ghost", "jump": the words of reports.
+/// Returns "no-number", "frozen", "swapped" (kExchanged), "ghost", "jump": the words of
+/// reports.
 [[nodiscard]] std::string_view name(TrackFault fault);
 
 /// A fault of one marker, `frames` frames from `first` on, as data: repair acts on it,
@@ -28,7 +29,8 @@ enum class TrackFault {
 struct FaultySamples {
   TrackFault fault{};
   std::size_t marker = 0;
-  std::optional<std::size_t> other;  ///< Marker with which it was swapped; reported once.
+  std::optional<std::size_t>
+      other;  ///< Marker that it was exchanged with; reported once.
   std::size_t first = 0;
   std::size_t frames = 0;
   double off_m = 0.0;  ///< Median distance from the place expected by the others; 0 for
@@ -36,7 +38,8 @@ struct FaultySamples {
 };
 
 struct CheckedTracks {
-  /// The given tracks; swapped samples are exchanged, other wrong ones are removed.
+  /// The given tracks; samples of exchanged markers are put back, other wrong ones are
+  /// removed.
   MarkerTracks tracks;
   std::vector<FaultySamples> findings;  ///< By first frame.
 };

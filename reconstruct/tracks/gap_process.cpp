@@ -20,7 +20,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t kCarriers = 6;     // Companions that define the frame.
+constexpr std::size_t kCarriers = 6;        // Companions that define the frame.
 constexpr std::size_t kMaxCompanions = 40;  // Companions in the posture's features.
 constexpr std::size_t kMinCarriers = 3;
 constexpr double kPresentShare = 0.9;

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/marker_tracks.h"
 #include "core/base/progress.h"
+#include "core/marker_tracks.h"
 #include "reconstruct/tracks/repair_method.h"
 
 namespace marey::reconstruct {

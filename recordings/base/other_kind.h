@@ -16,8 +16,8 @@ inline constexpr std::string_view kC3dKind = "a C3D file of markers";
 inline constexpr std::string_view kGltfKind = "a glTF or VRM file";
 inline constexpr std::string_view kTrcKind = "a TRC file of markers";
 
-/// Returns what the content of a file that should be TOML is instead, for a message: "a
-/// glTF file", "a video". Looks at the first bytes alone; empty if they may be TOML.
+/// Returns the kind of a file by its first bytes, for a message: "a glTF or VRM file", "a
+/// video". Empty if the kind is unknown; the file may be text.
 [[nodiscard]] std::string_view other_kind(std::string_view content);
 
 /// Checks the first bytes of a file that should be of the kind `wanted`. Accepts content

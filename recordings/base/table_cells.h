@@ -9,7 +9,7 @@
 
 namespace marey::recordings {
 
-/// Returns the lines of a text with their numbers. Lines end with LF, CRLF or CR.
+/// Reads the lines of a text and counts them. Lines end with LF, CRLF or CR.
 class LineReader {
  public:
   explicit LineReader(std::string_view text);

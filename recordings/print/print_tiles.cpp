@@ -72,7 +72,8 @@ PrintBox common(const PrintBox& a, const PrintBox& b) {
 }
 
 bool holds(const PrintBox& outer, const PrintBox& inner) {
-  return inner.left >= outer.left - kTileRounding_m && inner.top >= outer.top - kTileRounding_m &&
+  return inner.left >= outer.left - kTileRounding_m &&
+         inner.top >= outer.top - kTileRounding_m &&
          inner.right <= outer.right + kTileRounding_m &&
          inner.bottom <= outer.bottom + kTileRounding_m;
 }

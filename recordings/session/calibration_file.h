@@ -16,9 +16,9 @@ namespace marey::recordings {
 
 /// Returns the text of calibration.toml: a table per camera, named after it, with the
 /// keys of Pose2Sim and Caliscope (size, matrix, distortions, rotation, translation,
-/// fisheye) and marey's own. docs/formats/calibration.md lists them all. parse_calibration()
-/// returns the same doubles. Precondition: one quality and one clock per camera; every
-/// number is finite.
+/// fisheye) and marey's own. docs/formats/calibration.md lists them all.
+/// parse_calibration() returns the same doubles. Precondition: one quality and one clock
+/// per camera; every number is finite.
 [[nodiscard]] std::string calibration_text(const Calibration& calibration);
 
 /// Writes calibration_text() to `path`. The file is replaced as a whole or not at all.

@@ -34,7 +34,7 @@ enum class FileKind {
   kLiveTake,
 };
 
-/// Returns what a .toml, .xml, .yaml, .yml, .csv or .sqlite file holds, by its first
+/// Returns the kind of a .toml, .xml, .yaml, .yml, .csv or .sqlite file, by its first
 /// keys, its root element, its header or its application number; kUnknown for everything
 /// else. Its reader checks the rest. Cost: reads the file.
 ///

@@ -27,7 +27,7 @@ bool same_frames(const Trial& a, const Trial& b) {
 }
 
 /// A floor trial may be cut out of the calibration's videos. A later check detects
-/// swapped cameras there from their detections.
+/// exchanged cameras there from their detections.
 bool may_share_videos(const Trial& a, const Trial& b) {
   const auto is = [&](TrialKind kind) { return a.kind == kind || b.kind == kind; };
   return is(TrialKind::kCalibration) && is(TrialKind::kFloor);

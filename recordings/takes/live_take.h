@@ -18,9 +18,9 @@ inline constexpr const char* kLiveTakeFile = "live.sqlite";
 
 /// Metadata of a live run, stored before its first instant.
 struct LiveTakeHead {
-  std::string session;   ///< Its name.
-  std::string started;   ///< Wall clock: "2026-11-21T11:56:29Z".
-  FrameRate rate;        ///< Rate of the grid of instants.
+  std::string session;  ///< Its name.
+  std::string started;  ///< Wall clock: "2026-11-21T11:56:29Z".
+  FrameRate rate;       ///< Rate of the grid of instants.
   std::vector<std::string> cameras;
   /// All other settings that results depend on, in the program's own format.
   std::string settings;

@@ -12,10 +12,10 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/base/result.h"
 #include "core/character.h"
 #include "core/constraint.h"
 #include "core/pose.h"
-#include "core/base/result.h"
 #include "core/transform.h"
 #include "retarget/adapt/adapter_options.h"
 

@@ -23,7 +23,7 @@ void for_each_turn(const Motion& source, const Motion& adapted, const Visit& vis
     for (std::size_t j = 0; j < was.size(); ++j) {
       const glm::dquat turn =
           glm::normalize(is[j].rotation * glm::conjugate(was[j].rotation));
-      visit(t, j, glm::length(rotation_vector(turn)));
+      visit(t, j, glm::length(marey::rotation_vector(turn)));
     }
   }
 }

@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "core/constraint.h"
 #include "core/base/time.h"
+#include "core/constraint.h"
 #include "retarget/adapt/plan_supports.h"
 
 namespace marey::retarget {

@@ -71,7 +71,7 @@ std::vector<double> stillness(const BalanceReference& reference,
                          (options.moving_legs_per_s - options.still_legs_per_s);
     const double outside =
         (share_of_half(reference.support[i], reference.com_xz_m[i]) - 1.0) /
-        (options.max_halves - 1.0);
+        (options.max_offset_in_halves - 1.0);
     out.push_back(reference.shares[i].present * (1.0 - smooth_step(moves)) *
                   (1.0 - smooth_step(outside)));
   }

@@ -28,13 +28,14 @@ struct BalanceOptions {
   double ramp_s = 0.4;      ///< Time until a foot bears its full weight.
   double low_pass_s = 0.8;  ///< Full width of the window for the error.
   int passes = 8;           ///< Each pass restores what the low-pass removed before.
-  // Criteria for balance. A frame counts fully while the centre of mass is slower than
-  // `still_legs_per_s` and above the support area. It does not count above
-  // `moving_legs_per_s`, or beyond `max_halves` half sizes from the middle of the
-  // support area (support_frame.h).
+  /// A frame counts fully while the centre of mass is slower than this and above the
+  /// support area.
   double still_legs_per_s = 0.25;
+  /// A frame does not count while the centre of mass is faster than this.
   double moving_legs_per_s = 0.7;
-  double max_halves = 2.5;
+  /// A frame does not count while the centre of mass is further than this from the middle
+  /// of the support area, in half sizes of the area (support_frame.h).
+  double max_offset_in_halves = 2.5;
 };
 
 /// Result of keeping balance.

@@ -4,9 +4,9 @@
 
 #include <array>
 
+#include "core/base/result.h"
 #include "core/character_spec.h"
 #include "core/humanoid.h"
-#include "core/base/result.h"
 
 namespace marey::retarget {
 

@@ -110,17 +110,13 @@ ArmPlaces Arms::places(std::size_t t, int side) const {
 }
 
 NormalizedLimb Arms::shifted_limb(std::size_t t, int side, const ArmShift& shift) const {
-  return retarget::shifted_limb(limb(side),
-                                places(t, side),
-                                limbs_[static_cast<std::size_t>(side)][t],
-                                shift);
+  return retarget::shifted_limb(
+      limb(side), places(t, side), limbs_[static_cast<std::size_t>(side)][t], shift);
 }
 
 ArmPlaces Arms::places(std::size_t t, int side, const ArmShift& shift) const {
-  return shifted_places(limb(side),
-                        places(t, side),
-                        limbs_[static_cast<std::size_t>(side)][t],
-                        shift);
+  return shifted_places(
+      limb(side), places(t, side), limbs_[static_cast<std::size_t>(side)][t], shift);
 }
 
 double Arms::out_of_reach_m(std::size_t t, int side, const ArmShift& shift) const {

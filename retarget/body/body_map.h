@@ -9,9 +9,9 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
-#include "core/humanoid.h"
 #include "core/base/ids.h"
 #include "core/base/result.h"
+#include "core/humanoid.h"
 #include "core/skeleton.h"
 
 namespace marey::retarget {

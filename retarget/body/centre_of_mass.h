@@ -6,8 +6,8 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/character.h"
 #include "core/base/ids.h"
+#include "core/character.h"
 #include "core/transform.h"
 
 namespace marey::retarget {

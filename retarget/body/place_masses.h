@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "core/base/result.h"
 #include "core/character.h"
 #include "core/character_spec.h"
-#include "core/base/result.h"
 #include "core/skeleton.h"
 #include "retarget/body/body_map.h"
 

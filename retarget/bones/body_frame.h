@@ -9,9 +9,9 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/base/result.h"
 #include "core/bone_map.h"
 #include "core/motion.h"
-#include "core/base/result.h"
 #include "core/skeleton.h"
 #include "retarget/bones/found_bones.h"
 

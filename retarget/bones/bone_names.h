@@ -6,9 +6,9 @@
 #include <optional>
 #include <string_view>
 
-#include "core/humanoid.h"
 #include "core/base/ids.h"
 #include "core/base/result.h"
+#include "core/humanoid.h"
 #include "retarget/bones/skeleton_tree.h"
 
 namespace marey::retarget {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/bone_map.h"
 #include "core/base/result.h"
+#include "core/bone_map.h"
 #include "retarget/bones/found_bones.h"
 #include "retarget/bones/skeleton_tree.h"
 

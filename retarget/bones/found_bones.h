@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/humanoid.h"
 #include "core/base/ids.h"
+#include "core/humanoid.h"
 
 namespace marey::retarget {
 

@@ -12,7 +12,7 @@
 
 namespace marey::retarget {
 
-/// Returns the T-pose of rest_as_t_pose(): the rotation of each joint's frame in marey's
+/// Returns the T-pose of set_rest_t_pose(): the rotation of each joint's frame in marey's
 /// axes. `foot_pitch_rad` as in NamedNeutral.
 [[nodiscard]] std::vector<glm::dquat> t_pose_of_bones(const Skeleton& skeleton,
                                                       const FoundBones& found,

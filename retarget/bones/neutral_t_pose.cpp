@@ -58,10 +58,10 @@ double root_height(const FoundBones& found,
 
 }  // namespace
 
-void rest_as_t_pose(Motion& motion,
-                    const FoundBones& found,
-                    const glm::dvec3& up,
-                    const NamedNeutral* known) {
+void set_rest_t_pose(Motion& motion,
+                     const FoundBones& found,
+                     const glm::dvec3& up,
+                     const NamedNeutral* known) {
   Skeleton& skeleton = motion.skeleton;
   const NeutralEvidence evidence = evidence_of(motion, found);
   const double pitch = known != nullptr ? known->foot_pitch_rad : kAverageFootPitch;

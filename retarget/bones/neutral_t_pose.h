@@ -25,9 +25,9 @@ namespace marey::retarget {
 ///
 /// Precondition: the motion has poses; both legs and the hips are found. Cost: linear in
 /// frames times joints.
-void rest_as_t_pose(Motion& motion,
-                    const FoundBones& found,
-                    const glm::dvec3& up,
-                    const NamedNeutral* known = nullptr);
+void set_rest_t_pose(Motion& motion,
+                     const FoundBones& found,
+                     const glm::dvec3& up,
+                     const NamedNeutral* known = nullptr);
 
 }  // namespace marey::retarget

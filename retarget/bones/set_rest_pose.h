@@ -10,10 +10,10 @@
 
 namespace marey::retarget {
 
-/// Makes a pose the rest of a motion's skeleton, turned about `up` (unit, in the file's
-/// world) to face along an axis and moved level above the origin. The motion's world
-/// positions stay the same.
-/// Precondition: the pose has as many rotations as the skeleton joints.
+/// Makes a pose the rest pose of a motion's skeleton, turned about `up` (unit, in the
+/// file's world) to face along an axis and moved level above the origin. The motion's
+/// world positions stay the same. Precondition: the pose has as many rotations as the
+/// skeleton joints.
 void set_rest_pose(Motion& motion,
                    const FoundBones& found,
                    const glm::dvec3& up,

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/character.h"
 #include "core/base/result.h"
+#include "core/character.h"
 
 namespace marey::retarget {
 

@@ -4,9 +4,9 @@
 
 #include <cstddef>
 
+#include "core/base/result.h"
 #include "core/character.h"
 #include "core/constraint.h"
-#include "core/base/result.h"
 
 namespace marey::retarget {
 

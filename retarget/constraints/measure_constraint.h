@@ -8,9 +8,9 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/base/ids.h"
 #include "core/character.h"
 #include "core/constraint.h"
-#include "core/base/ids.h"
 #include "core/transform.h"
 
 namespace marey::retarget {

@@ -69,7 +69,8 @@ LiftSkinReport lift_skin(const Skin& skin,
                          const LiftSkinOptions& options,
                          Motion& motion);
 
-/// Parts that raise the whole body: head, trunk and limbs except feet and hands.
+/// Returns the parts that raise the whole body: head, trunk and limbs except feet and
+/// hands.
 [[nodiscard]] std::span<const SkinPart> lifting_parts();
 
 /// Vertical displacement of the parts of one posture. [m]

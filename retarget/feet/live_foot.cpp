@@ -100,8 +100,7 @@ void LiveFoot::hold(const StandingFoot& stands,
   const glm::dvec3 ball = foot.ball_from_ankle_in_t_pose;
   Mode mode = mode_of(stands);
   if (is_known_ && mode != Mode::kFree) {
-    const glm::dvec3 behind =
-        last_.ankle_in_world - last_reference_.ankle_in_world;
+    const glm::dvec3 behind = last_.ankle_in_world - last_reference_.ankle_in_world;
     const double slip_m = options.slip_legs * leg_length_m;
     if (glm::length(glm::dvec2(behind.x, behind.z)) > slip_m) mode = Mode::kFree;
   }
@@ -136,10 +135,10 @@ void LiveFoot::hold(const StandingFoot& stands,
   if (mode_ == Mode::kHeel || mode_ == Mode::kBall) lift_over_floor(foot, 0.0, place);
   if (mode_ == Mode::kFree) {
     constexpr double kSoftnessInLegs = 0.01;
-    lift_over_floor(foot,
-                    kSoftnessInLegs * leg_length_m *
-                        smooth_step(since_change_s_ / options.release_s),
-                    place);
+    lift_over_floor(
+        foot,
+        kSoftnessInLegs * leg_length_m * smooth_step(since_change_s_ / options.release_s),
+        place);
   }
   if (mode_ == Mode::kFree || mode_ == Mode::kHeel) keep_toes_up(foot, place);
   is_known_ = true;

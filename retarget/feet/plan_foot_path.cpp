@@ -101,7 +101,7 @@ std::vector<glm::dvec3> bridge(Prescribed p, double hz, const FootPathOptions& o
 }
 
 // Inputs that the steps below share about one foot.
-struct FootPlanTask {
+struct FootPathTask {
   std::span<const FootPlace> reference;
   const FootMap& foot;
   double leg_length_m = 0.0;
@@ -118,7 +118,7 @@ struct FootPlanTask {
 
 // Returns the mean rotation of the reference foot, relative to the footprint's heading,
 // over a run in which it turns only with its footprint.
-glm::dquat mean_foot(const FootPlanTask& task, const FrameRange& run) {
+glm::dquat mean_foot(const FootPathTask& task, const FrameRange& run) {
   const auto off_print = [&](int k) {
     const auto t = static_cast<std::size_t>(k);
     return glm::conjugate(task.print[t].heading) * task.reference[t].foot;
@@ -149,7 +149,7 @@ std::vector<glm::dquat> headings_of(std::span<const FootPlace> reference) {
 }
 
 // Turns foot and toes flat where they must be, and as little as possible elsewhere.
-void turn(const FootPlanTask& task, std::vector<FootPlace>& out) {
+void turn(const FootPathTask& task, std::vector<FootPlace>& out) {
   Prescribed foot_turn(out.size());
   Prescribed toes_turn(out.size());
   const std::vector<glm::dquat> headings = headings_of(task.reference);
@@ -184,7 +184,7 @@ void turn(const FootPlanTask& task, std::vector<FootPlace>& out) {
 }
 
 // Returns the seconds from each frame to the nearest that bears; large if none does.
-std::vector<double> distance_to_stance_s(const FootPlanTask& task) {
+std::vector<double> distance_to_stance_s(const FootPathTask& task) {
   const std::size_t count = task.reference.size();
   std::vector<double> out(count, 1e9);
   for (std::size_t t = 0; t < count; ++t) {
@@ -198,7 +198,7 @@ std::vector<double> distance_to_stance_s(const FootPlanTask& task) {
 }
 
 // Puts the bearing joint on its footprint, and the swinging foot in between.
-void place_ankles(const FootPlanTask& task, std::vector<FootPlace>& out) {
+void place_ankles(const FootPathTask& task, std::vector<FootPlace>& out) {
   Prescribed shift(out.size());
   for (std::size_t t = 0; t < out.size(); ++t) {
     if (!task.bears(t)) continue;
@@ -239,7 +239,7 @@ std::vector<FootPlace> plan_foot_path(std::span<const FootPlace> reference,
                                       const FootPathOptions& options) {
   MAREY_ASSERT(rate.hz > 0.0 && options.blend_s > 0.0);
   const std::size_t count = reference.size();
-  FootPlanTask task{reference,
+  FootPathTask task{reference,
                     foot,
                     leg_length_m,
                     rate.hz,

@@ -52,8 +52,9 @@ struct FindTouchesOptions {
   double min_touch_s = 0.1;             ///< Shorter touches are discarded.
   double max_gap_s = 0.05;              ///< Shorter gaps are closed.
   double smoothing_s = 0.06;            ///< Window of the fit of positions and speeds.
-  /// A hand is still while it stays within `still_radius` of its position for at least
-  /// `min_still_s`, and its shoulder moves by more than `still_travel`.
+  /// A hand is still while it is slower than `still_speed_legs_per_s` and stays within
+  /// `still_radius_legs` of its position for at least `min_still_s`, and its shoulder
+  /// moves by more than `still_travel_legs`.
   double still_speed_legs_per_s = 0.06;
   double still_radius_legs = 0.02;
   double still_travel_legs = 0.06;

@@ -67,9 +67,9 @@ struct LiveScene {
   std::array<ArmShift, 2> shifts;
 
   LiveScene(const PosedVolume& from,
-        const PosedVolume& to,
-        const LiveHandsOptions& all,
-        const NormalizedPose& pose)
+            const PosedVolume& to,
+            const LiveHandsOptions& all,
+            const NormalizedPose& pose)
       : source(from), avatar(to), options(all), posture(pose) {
     for (std::size_t i = 0; i < 2; ++i) {
       const auto& from_limb = source.map.limbs[i];
@@ -111,16 +111,16 @@ struct LiveScene {
     const auto& from = source.volume[part];
     const auto& to = avatar.volume[part];
     if (!source_hand || !avatar_hand || !from || !to) return;
-    const RigidTransform source_from_world = inverse(
-        source.world_from_joint[index(from->joint)] * from->joint_from_capsule);
+    const RigidTransform source_from_world =
+        inverse(source.world_from_joint[index(from->joint)] * from->joint_from_capsule);
     const RigidTransform world_from_part = world_from(part);
     const RigidTransform& world_from_hand =
         avatar.world_from_joint[index(avatar_hand->joint)];
     const glm::dvec3 moved = now[side_index(side)].wrist - places[side_index(side)].wrist;
     for (const double along : kHandPoints) {
-      const glm::dvec3 p = source_from_world *
-                           (source.world_from_joint[index(source_hand->joint)] *
-                            axis_point_in_joint(*source_hand, along));
+      const glm::dvec3 p =
+          source_from_world * (source.world_from_joint[index(source_hand->joint)] *
+                               axis_point_in_joint(*source_hand, along));
       const double gap_legs = (side_of(*from, p).distance_m - source_hand->radius_m) /
                               source.map.leg_length_m;
       if (gap_legs >= options.far_legs) continue;
@@ -228,16 +228,13 @@ void LiveHands::move(const PosedVolume& source,
     const ArmShift out = limited_shift(
         {all.wrist_m - touching.wrist_m, all.swivel_rad - touching.swivel_rad},
         avatar.map.limbs[side_index(side)]->length_m());
-    const ArmShift leaving = arm.to_leave.follow(
-        out,
-        world_from_axes,
-        since_last_s,
-        options.leave_s);
-    posture.limbs[side_index(side)] = shifted_limb(*avatar.map.limbs[side_index(side)],
-                                          scene.places[side_index(side)],
-                                          *posture.limbs[side_index(side)],
-                                          {touching.wrist_m + leaving.wrist_m,
-                                           touching.swivel_rad + leaving.swivel_rad});
+    const ArmShift leaving =
+        arm.to_leave.follow(out, world_from_axes, since_last_s, options.leave_s);
+    posture.limbs[side_index(side)] = shifted_limb(
+        *avatar.map.limbs[side_index(side)],
+        scene.places[side_index(side)],
+        *posture.limbs[side_index(side)],
+        {touching.wrist_m + leaving.wrist_m, touching.swivel_rad + leaving.swivel_rad});
   }
 }
 

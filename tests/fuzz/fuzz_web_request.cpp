@@ -24,7 +24,7 @@ std::string_view next_line(std::string_view& rest) {
 }
 
 void check(const RequestHead& head, const AccessPolicy& policy) {
-  const AuthorizedRequest got = authorize_request(head, policy);
+  const RequestVerdict got = authorize_request(head, policy);
   if (got.verdict != Verdict::kAccepted) return;
   MAREY_ASSERT(head.method == "GET" || head.method == "HEAD");
   MAREY_ASSERT(got.path.starts_with('/') && head.target.starts_with(got.path));

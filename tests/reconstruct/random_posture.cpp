@@ -17,7 +17,7 @@ Lengths random_lengths(Dice& dice) {
 }
 
 BodyConstants average_frame() {
-  return frame_of(average_proportions(1.75));
+  return body_constants(average_proportions(1.75));
 }
 
 BodyConstants askew_frame(Dice& dice) {

@@ -7,9 +7,9 @@ import {createHash} from 'node:crypto';
 
 const MAGIC = '258EAFA5-E914-47DA-95CA-C5AB0DC85B11';
 
-/** Answers the handshake; `heard(text)` receives the messages of the page. */
+/** Answers the handshake; `on_text(text)` receives the messages of the page. */
 export class PageSocket {
-  constructor(request, socket, heard, closed) {
+  constructor(request, socket, on_text, closed) {
     const accept = createHash('sha1').update(request.headers['sec-websocket-key'] + MAGIC)
       .digest('base64');
     socket.write('HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\n' +
@@ -20,7 +20,7 @@ export class PageSocket {
     socket.on('data', (data) => {
       this.waiting = Buffer.concat([this.waiting, data]);
       for (let text = this.#next(); text !== null; text = this.#next()) {
-        if (text !== '') heard(text);
+        if (text !== '') on_text(text);
       }
     });
     socket.on('error', () => socket.destroy());

@@ -11,8 +11,7 @@ namespace marey::retarget {
 /// Solves a symmetric positive definite system in place. `blocks` is its lower triangle
 /// of 3x3 blocks (row-major in both: block (i, j) at 9 (i side + j)) and becomes the
 /// factor (with inverse diagonal); `right` becomes the solution. Pivots that rounding
-/// reduced below `minimum` are replaced by `minimum`. Costs about 4.5 side^3
-/// multiplications.
+/// reduced below `min_pivot` are replaced by it. Costs about 4.5 side^3 multiplications.
 template <class F>
 void solve_blocks(int side, const F& min_pivot, F* blocks, Vec3<F>* right);
 

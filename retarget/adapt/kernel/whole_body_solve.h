@@ -39,7 +39,7 @@ inline constexpr double kExactDamping = 1e-5;
 inline constexpr double kMinDamping = 1e-4;
 inline constexpr double kDampingPerSquare = 0.03;
 /// Maximum length of an error in a step, in units; longer errors are shortened.
-inline constexpr double kMaxError = 0.5;
+inline constexpr double kMaxStepError = 0.5;
 
 /// Computes the rotation of each rotating joint from its reference, as a vector in world
 /// axes.
@@ -148,7 +148,7 @@ void form_system(const Plan& plan,
     const F damping = select(
         (p.holds > zero) | (num<F>(point.level) < one), num<F>(kExactDamping), soft);
     const int row = rows.row_of(static_cast<int>(k));
-    const F long_enough = num<F>(kMaxError);
+    const F long_enough = num<F>(kMaxStepError);
     const F scale = long_enough / max(length(p.error), long_enough);
     s.right[static_cast<std::size_t>(row)] = scale * p.error;
     if (strays) {
@@ -161,7 +161,7 @@ void form_system(const Plan& plan,
   }
   if (rows.balance) {
     const Vec3<F> error = balance_error(s);
-    const F long_enough = num<F>(0.5 * kMaxError);
+    const F long_enough = num<F>(0.5 * kMaxStepError);
     const F scale = long_enough / max(length(error), long_enough);
     Vec3<F> back = travelled;
     for (const int j : plan.live) {

@@ -45,7 +45,7 @@ std::vector<TwoDescriptions> describe_limbs(unsigned seed, double flexion_rad) {
   const Proportions average = average_proportions(stature_m);
   reconstruct::Lengths lengths = reconstruct::lengths_of(average);
   for (double& length_m : lengths) length_m *= dice.between(0.9, 1.1);
-  const reconstruct::BodyConstants body = reconstruct::frame_of(average);
+  const reconstruct::BodyConstants body = reconstruct::body_constants(average);
   reconstruct::Posture posture;
   for (const LimbParameters& limb : kLimbParameters) {
     posture.set_rotation(limb.frame, dice.turn(3.0));

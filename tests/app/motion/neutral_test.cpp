@@ -52,7 +52,7 @@ TEST(Neutral, HasOneNeutralForAllClipsOfASkeleton) {
     for (Motion& motion : motions) {
       const auto bones = retarget::identify_bones(motion.skeleton);
       ASSERT_TRUE(bones);
-      retarget::rest_as_t_pose(
+      retarget::set_rest_t_pose(
           motion, *bones, retarget::up_of_motion(motion, *bones).axis, named);
     }
     for (std::size_t i = 0; i < motions[0].skeleton.joints.size(); ++i) {

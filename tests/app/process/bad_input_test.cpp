@@ -227,39 +227,39 @@ void swap_cameras(SpoiledSession& session, const std::string& trial) {
   session.replace_in_trial(trial, "camX = ", "cam1 = ");
 }
 
-TEST(SwappedCameras, InTheWalkAreNamed) {
+TEST(ExchangedCameras, InTheWalkAreNamed) {
   SpoiledSession session;
   swap_cameras(session, "walk");
   EXPECT_TRUE(declines(session,
                        session.run(),
-                       {"walk/cam1.mp4 and ", "look swapped", "exchange them"},
+                       {"walk/cam1.mp4 and ", "look exchanged", "exchange them"},
                        kCalibrated));
 }
 
-TEST(SwappedCameras, InTheCalibrationAreDetectedInLaterTrials) {
+TEST(ExchangedCameras, InTheCalibrationAreDetectedInLaterTrials) {
   SpoiledSession session;
   swap_cameras(session, "calib");
   swap_cameras(session, "floor");
   EXPECT_TRUE(
-      declines(session, session.run(), {"/cam1.mp4", "look swapped", "calibration"}));
+      declines(session, session.run(), {"/cam1.mp4", "look exchanged", "calibration"}));
 }
 
-TEST(SwappedCameras, InTheWavedTrialAloneAreNamedByTheFloor) {
+TEST(ExchangedCameras, InTheWavedTrialAloneAreNamedByTheFloor) {
   SpoiledSession session;
   swap_cameras(session, "calib");
   EXPECT_TRUE(declines(
       session,
       session.run(),
-      {"/cam1.mp4", "look swapped: the board on the floor", "calibration trial's"}));
+      {"/cam1.mp4", "look exchanged: the board on the floor", "calibration trial's"}));
 }
 
-TEST(SwappedCameras, InTheFloorTrialAloneAreNamed) {
+TEST(ExchangedCameras, InTheFloorTrialAloneAreNamed) {
   SpoiledSession session;
   swap_cameras(session, "floor");
   EXPECT_TRUE(
       declines(session,
                session.run(),
-               {"/cam1.mp4", "look swapped: the board on the floor", "floor trial's"}));
+               {"/cam1.mp4", "look exchanged: the board on the floor", "floor trial's"}));
 }
 
 // The board shows itself to cam0 in the even frames, to the others in the odd ones, and

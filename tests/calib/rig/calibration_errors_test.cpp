@@ -131,7 +131,7 @@ TEST(CalibrateCameras, NamesTwoFloorVideosThatAreSwapped) {
     EXPECT_EQ(error.where,
               "floor/cam" + std::to_string(a) + ".mp4 and floor/cam" + std::to_string(b) +
                   ".mp4");
-    EXPECT_TRUE(contains(error.cause, "look swapped")) << error.cause;
+    EXPECT_TRUE(contains(error.cause, "look exchanged")) << error.cause;
     EXPECT_TRUE(contains(error.next, "exchange them")) << error.next;
   }
 }

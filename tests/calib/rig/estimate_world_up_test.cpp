@@ -36,7 +36,7 @@ std::vector<CameraDetections> pillar(const std::vector<Camera>& cameras) {
   return out;
 }
 
-TEST(LevelByTags, FindsFloorAndUpOfATurnedWorld) {
+TEST(UpFromTags, FindsFloorAndUpOfATurnedWorld) {
   const auto truth = marey::testing::ring_of_cameras();
   const auto standing = pillar(truth);
   const RigidTransform old_from_truth{rotation_from_vector({0.7, -0.4, 1.1}),
@@ -74,7 +74,7 @@ std::vector<CameraDetections> lying_tags(const std::vector<Camera>& cameras,
   return out;
 }
 
-TEST(LevelByLyingTags, FindsTheirPlane) {
+TEST(UpFromFloorTags, FindsTheirPlane) {
   const auto truth = marey::testing::ring_of_cameras();
   const RigidTransform old_from_truth{rotation_from_vector({0.7, -0.4, 1.1}),
                                       {2.0, -1.0, 0.5}};
@@ -91,18 +91,18 @@ TEST(LevelByLyingTags, FindsTheirPlane) {
   }
 }
 
-TEST(LevelByLyingTags, DeclinesATagOnABox) {
+TEST(UpFromFloorTags, DeclinesATagOnABox) {
   const auto cameras = marey::testing::ring_of_cameras();
   EXPECT_FALSE(up_from_floor_tags(cameras, lying_tags(cameras, 0.3)));
 }
 
-TEST(LevelByTags, DeclinesWithoutTags) {
+TEST(UpFromTags, DeclinesWithoutTags) {
   const auto cameras = marey::testing::ring_of_cameras();
   EXPECT_FALSE(
       up_from_tags(cameras, marey::testing::unseeing(cameras, 3, 30.0, "static")));
 }
 
-TEST(LevelByTags, DeclinesCamerasThatAreTurnedAlike) {
+TEST(UpFromTags, DeclinesCamerasThatAreTurnedAlike) {
   const auto cameras = marey::testing::ring_of_cameras();
   const std::vector<Camera> one{cameras[0], cameras[0]};
   EXPECT_FALSE(up_from_tags(one, pillar(one)));

@@ -101,7 +101,7 @@ TEST_F(ProbeCamera, ReportsASilentOrForbiddenCamera) {
   EXPECT_FALSE(forbidden.in_use);
 }
 
-TEST_F(ProbeCamera, ListsWhatIsOffered) {
+TEST_F(ProbeCamera, ListsFormatsAndRates) {
   camera_.formats.push_back({V4L2_PIX_FMT_GREY, {{640, 480, {}}}});
   const auto devices = list_devices(kernel_).devices;
   EXPECT_EQ(

@@ -21,7 +21,7 @@ const AccessPolicy kHere{
     .address = "127.0.0.1", .loopback = true, .port = 8790, .token = ""};
 
 TEST(AuthorizeRequest, ReturnsThePathOfAnAllowedRequest) {
-  const AuthorizedRequest got = authorize_request(
+  const RequestVerdict got = authorize_request(
       {.method = "GET", .target = "/page.js?v=2?3", .host = "127.0.0.1:8790"}, kHere);
   EXPECT_EQ(got.verdict, Verdict::kAccepted);
   EXPECT_EQ(got.path, "/page.js");
@@ -32,7 +32,7 @@ TEST(AuthorizeRequest, ReturnsThePathOfAnAllowedRequest) {
             Verdict::kWrongMethod);
 }
 
-TEST(AuthorizeRequest, KnowsItsOwnAddresses) {
+TEST(AuthorizeRequest, AcceptsItsOwnAddresses) {
   struct Case {
     const char* address;
     bool loopback;
@@ -70,7 +70,7 @@ TEST(AuthorizeRequest, KnowsItsOwnAddresses) {
   }
 }
 
-TEST(AuthorizeRequest, WantsTheOriginOfItsOwnPage) {
+TEST(AuthorizeRequest, RequiresTheOriginOfItsOwnPage) {
   const auto from = [](const char* origin) {
     return verdict(
         {.method = "GET", .target = "/", .host = "localhost:8790", .origin = origin},
@@ -87,7 +87,7 @@ TEST(AuthorizeRequest, WantsTheOriginOfItsOwnPage) {
   }
 }
 
-TEST(AuthorizeRequest, WantsTheTokenInQueryOrCookie) {
+TEST(AuthorizeRequest, RequiresTheTokenInQueryOrCookie) {
   AccessPolicy policy = kHere;
   policy.token = "0123456789abcdef";
   const auto with = [&](const char* target, const char* cookie) {

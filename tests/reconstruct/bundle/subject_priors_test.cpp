@@ -20,7 +20,7 @@ BodyModel one_tag(HumanBone segment, const RigidTransform& segment_from_tag) {
   BodyModel model;
   const Proportions average = average_proportions(1.75);
   model.lengths = lengths_of(average);
-  model.body = frame_of(average);
+  model.body = body_constants(average);
   model.tags = {{TagId{7}, segment, 0.08}};
   model.segment_from_tag[0] = segment_from_tag;
   return model;

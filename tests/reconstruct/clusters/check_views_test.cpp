@@ -62,7 +62,7 @@ TEST(CheckViews, NamesTheFilesThatAreSwapped) {
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().code, Errc::kBadInput);
   EXPECT_EQ(status.error().where, "rom/cam2.mp4 and rom/cam1.mp4");
-  EXPECT_TRUE(contains(status.error().cause, "files look swapped"))
+  EXPECT_TRUE(contains(status.error().cause, "files look exchanged"))
       << status.error().cause;
   EXPECT_TRUE(contains(status.error().next, "exchange them")) << status.error().next;
 }
@@ -137,7 +137,7 @@ TEST(CheckViews, NoticesASwapInEightFrames) {
   for (CameraDetections& camera : scene.detections) camera.frames.resize(8);
   const Status status = check_views(scene.cameras, scene.detections, scene.tags);
   ASSERT_FALSE(status);
-  EXPECT_TRUE(contains(status.error().cause, "files look swapped"))
+  EXPECT_TRUE(contains(status.error().cause, "files look exchanged"))
       << status.error().cause;
 }
 

@@ -117,7 +117,7 @@ MovingBody moving_body(const MovingBodyOptions& options) {
     lengths[i] = right ? lengths[i - 1]
                        : lengths[i] * (1.0 + options.length_share * dice.noise(1.0));
   }
-  const reconstruct::BodyConstants frame = reconstruct::frame_of(average);
+  const reconstruct::BodyConstants frame = reconstruct::body_constants(average);
   Body& body = moving.body;
   body.name = "moving";
   body.stature_m = kStature_m;

@@ -55,7 +55,7 @@ TEST(ToProportions, IsUndoneByLengthsOf) {
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     EXPECT_NEAR(back[i], lengths[i], 1e-15);
   }
-  EXPECT_EQ(frame_of(p).hips_above_hip_centres_m, frame.hips_above_hip_centres_m);
+  EXPECT_EQ(body_constants(p).hips_above_hip_centres_m, frame.hips_above_hip_centres_m);
 }
 
 TEST(BoneFrameOfPosture, AgreesWithThePosesForwardKinematics) {

@@ -46,7 +46,7 @@ struct TrueBundle {
     seen_moving = marey::testing::film(truth, moving, cameras, film);
     moved = group_sightings(seen_moving, tags);
     bundle.model.lengths = lengths_of(truth.proportions);
-    bundle.model.body = frame_of(truth);
+    bundle.model.body = body_constants(truth);
     bundle.model.tags = tags;
     bundle.usual = lengths_of(average_proportions(truth.stature_m));
     for (std::size_t tag = 0; tag < truth.tags.size(); ++tag) {

@@ -22,7 +22,7 @@ TEST(FindMarkerFaults, ReportsNothingForCorrectTracks) {
   }
 }
 
-TEST(FindMarkerFaults, ExchangesSwappedMarkersBack) {
+TEST(FindMarkerFaults, PutsExchangedMarkersBack) {
   const MarkerTracks truth = testing::synthetic_markers(400, 0.0005);
   MarkerTracks swapped = truth;
   for (std::size_t f = 150; f < 210; ++f) std::swap(swapped.at(f, 2), swapped.at(f, 17));

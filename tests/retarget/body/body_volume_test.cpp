@@ -141,7 +141,7 @@ std::vector<SkinPoint> skin_of(const BodyVolume& volume, const Skeleton& body) {
   return skin;
 }
 
-TEST(FitVolume, FindsABellyInASkin) {
+TEST(VolumeOfSkin, FindsABellyInASkin) {
   testing::Dice dice(5);
   const Skeleton body = testing::with_random_axes(testing::in_a_pose(adult(), 0.8), dice);
   const BodyMap map = mapped(body);
@@ -161,7 +161,7 @@ TEST(FitVolume, FindsABellyInASkin) {
   EXPECT_NEAR(found[P::kRightThigh]->radius_m, truth[P::kRightThigh]->radius_m, 0.001);
 }
 
-TEST(FitVolume, KeepsTheAverageWhereThereIsNoSkin) {
+TEST(VolumeOfSkin, KeepsTheAverageWhereThereIsNoSkin) {
   const Skeleton body = adult();
   const BodyVolume average = volume_of(body);
   const BodyVolume found = volume_of_skin(body, mapped(body), {});

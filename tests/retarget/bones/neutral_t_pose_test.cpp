@@ -149,7 +149,7 @@ TEST(RestAsTPose, FindsTheTPoseOfBonesThatLieAlongTheirOwnAxes) {
     for (const double turn : {0.0, 1.5, 3.0}) {
       Motion motion = walk(rig, lean, 0.5, turn);
       ASSERT_FALSE(stands_at_rest(motion.skeleton, rig.found));
-      rest_as_t_pose(motion, rig.found, up_of_motion(motion, rig.found).axis);
+      set_rest_t_pose(motion, rig.found, up_of_motion(motion, rig.found).axis);
       const auto now = world_from_joints(motion.skeleton, rest_pose(motion.skeleton));
       for (const B bone : human_bones()) {
         const glm::dquat off = glm::conjugate(along_x(bone)) * now[index(bone)].rotation;
@@ -172,9 +172,9 @@ TEST(RestAsTPose, IsTheSameForAllMotionsOfASkeleton) {
   for (int i = 0; i < 6; ++i) {
     both.poses.insert(both.poses.end(), old_man.poses.begin(), old_man.poses.end());
   }
-  rest_as_t_pose(upright, rig.found, up_of_motion(upright, rig.found).axis);
+  set_rest_t_pose(upright, rig.found, up_of_motion(upright, rig.found).axis);
   for (Motion* motion : {&old_man, &both}) {
-    rest_as_t_pose(*motion, rig.found, up_of_motion(*motion, rig.found).axis);
+    set_rest_t_pose(*motion, rig.found, up_of_motion(*motion, rig.found).axis);
     for (std::size_t i = 0; i < rig.heap.joints.size(); ++i) {
       EXPECT_EQ(motion->skeleton.joints[i].parent_from_joint.rotation,
                 upright.skeleton.joints[i].parent_from_joint.rotation);
@@ -201,13 +201,13 @@ TEST(UpOfMotion, IsTheUsualOneWhereABodyLiesMostOfTheTime) {
   const Rig rig = make_rig();
   const std::size_t count = walk(rig, 0.0, 0.4, 0.0).poses.size();
   Motion upright = walk(rig, 0.0, 0.4, 0.0);
-  rest_as_t_pose(upright, rig.found, up_of_motion(upright, rig.found).axis);
+  set_rest_t_pose(upright, rig.found, up_of_motion(upright, rig.found).axis);
   for (const std::size_t percent : {0U, 30U, 50U, 60U, 85U}) {
     Motion motion = walk_after_sleep(rig, percent * count / 100);
     const MotionUp up = up_of_motion(motion, rig.found);
     EXPECT_EQ(up.axis, glm::dvec3(0, 1, 0)) << percent;
     EXPECT_NEAR(up.share, 1.0 - 0.01 * static_cast<double>(percent), 0.03) << percent;
-    rest_as_t_pose(motion, rig.found, up.axis);
+    set_rest_t_pose(motion, rig.found, up.axis);
     EXPECT_EQ(motion.skeleton.joints[0].parent_from_joint.rotation,
               upright.skeleton.joints[0].parent_from_joint.rotation)
         << percent;
@@ -221,7 +221,7 @@ TEST(UpOfMotion, IsTheUsualOneWhereABodyLiesMostOfTheTime) {
 TEST(RestAsTPose, KeepsTheLeanOfAWalk) {
   const Rig rig = make_rig();
   Motion motion = walk(rig, 20.0 * kRadiansPerDegree, 0.5, 0.0);
-  rest_as_t_pose(motion, rig.found, up_of_motion(motion, rig.found).axis);
+  set_rest_t_pose(motion, rig.found, up_of_motion(motion, rig.found).axis);
   mark(rig.found, motion.skeleton);
   for (const Skeleton& avatar : {testing::child(), testing::giant()}) {
     RetargetOptions options;
@@ -252,7 +252,7 @@ TEST(RestAsTPose, KnowsSkeletonsByTheirJoints) {
   EXPECT_EQ(named_neutral("nobody"), nullptr);
 }
 
-TEST(RestAsPose, TakesAFrameAndFacesAlongAnAxis) {
+TEST(SetRestPose, TakesAFrameAndFacesAlongAnAxis) {
   const Rig rig = make_rig();
   Motion motion = walk(rig, 0.0, 0.5, 1.1);
   const Pose pose = motion.poses[7];
@@ -272,7 +272,7 @@ TEST(RestAsPose, TakesAFrameAndFacesAlongAnAxis) {
   }
 }
 
-TEST(RestAsOther, DeclinesAnotherSkeletonNamingTheJoint) {
+TEST(CopyRestPose, DeclinesAnotherSkeletonNamingTheJoint) {
   const Rig rig = make_rig();
   Motion motion = walk(rig, 0.0, 0.5, 0.0);
   Skeleton other = rig.t_pose;

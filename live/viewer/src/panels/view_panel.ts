@@ -25,7 +25,7 @@ const MEANINGS = {
   measured: 'cameras saw it in this frame',
   repaired: 'not seen; interpolated between sightings shortly before and after',
   inferred: 'without a tag, not seen for a long time, or a joint of a limb with a sigma ' +
-    'above 20 mm',
+    'above 15 mm',
 };
 
 export class ViewPanel {

@@ -51,7 +51,7 @@ function fateLegend(trial: MarkerTrial, fates: readonly Fate[]): HTMLElement {
   return el('ul', {class: 'legend fate-legend'},
     ...fates.map((fate, i) => counts[i] > 0 && entry(fate, fate, percent(counts[i] / all),
       `${FATE_MEANING[fate]}: ${plural(counts[i], 'sample')}`)),
-    removed > 0 && entry('removed', 'taken out', plural(removed, 'sample'), FAULT_MEANING));
+    removed > 0 && entry('removed', 'removed', plural(removed, 'sample'), FAULT_MEANING));
 }
 
 function runWords(trial: MarkerTrial, figure: MarkerTrialFigures, fates: readonly Fate[],

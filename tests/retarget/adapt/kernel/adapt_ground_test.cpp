@@ -1,220 +1,207 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
+#include "retarget/adapt/kernel/adapt_ground.h"
+
+#include <array>
 #include <cmath>
-#include <vector>
 
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include "core/pose.h"
-#include "retarget/feet/adapt_to_ground.h"
-#include "retarget/feet/plan_foot_path.h"
-#include "tests/support/bodies/random_bodies.h"
+#include "tests/retarget/adapt/kernel/thesis_scene.h"
 
 namespace marey::retarget {
 namespace {
 
-// A body that stands still for `frames`, its root raised by `raise_m`.
-struct Standing {
-  Skeleton body = testing::long_legs();
-  BodyMap map = *map_body(body);
-  std::vector<NormalizedPose> poses;
-  Contacts contacts;
+constexpr double kFloat_m = 2e-6;  // As in thesis_adapter_test.cpp.
 
-  Standing(int frames, double raise_m) {
-    Pose pose = rest_pose(body);
-    pose.root_in_world.y += raise_m;
-    poses.assign(static_cast<std::size_t>(frames), normalize(body, map, pose));
-    contacts.frame_count = frames;
+ConstraintSet both_feet(const Character& character,
+                        const Pose& pose,
+                        const glm::dvec3& left_by,
+                        const glm::dvec3& right_by) {
+  ConstraintSet set{{support_of("leftFoot"), support_of("rightFoot")}, {}};
+  for (std::size_t c = 0; c < 2; ++c) {
+    Support support;
+    support.footprint_in_world =
+        place_in_world(character, pose, c ? "rightFoot" : "leftFoot") +
+        (c ? right_by : left_by);
+    set.constraints[c].goal = support;
   }
-  void bear(int side, int first, int last) {
-    FootContacts& foot = contacts.feet[static_cast<std::size_t>(side)];
-    foot.heel = foot.ball = foot.stance = {{first, last}};
-  }
-  GroundReport adapt(const GroundOptions& options = {}) {
-    return adapt_to_ground(body, map, contacts, {60.0}, poses, options);
-  }
-  [[nodiscard]] double root_m(std::size_t t) const {
-    return poses[t].root.y * map.leg_length_m;
-  }
-  [[nodiscard]] glm::dvec3 ankle(std::size_t t, int side) const {
-    const auto frames = world_from_joints(body, expand(poses[t], body, map));
-    return frames[index(map.leg(side).end)].translation;
-  }
-};
-
-TEST(AdaptToGround, LeavesTheRootOfAFlyingBodyAlone) {
-  Standing s(30, 0.7);
-  const double before_m = s.root_m(15);
-  s.adapt();
-  EXPECT_EQ(s.root_m(15), before_m);
+  return set;
 }
 
-TEST(AdaptToGround, LowersTheRootUntilTheLegReaches) {
-  Standing s(60, 0.10);
-  const double before_m = s.root_m(30);
-  s.bear(0, 20, 40);
-  const GroundReport report = s.adapt();
-  // The leg is straight at rest, so the root sinks by the height by which it was raised.
-  EXPECT_NEAR(before_m - s.root_m(30), 0.10, 1e-3);
-  EXPECT_NEAR(s.ankle(30, 0).y, s.map.feet[0].ankle_height_m, 1e-9);
-  EXPECT_EQ(report.unreachable_frames, 0);
+AdaptOptions by(Method method) {
+  AdaptOptions options;
+  options.method = method;
+  return options;
 }
 
-TEST(AdaptToGround, TakesTheHigherFootForNothing) {
-  Standing s(60, 0.10);
-  s.bear(0, 20, 40);
-  const double swing_before_m = s.ankle(30, 1).y;
-  s.adapt();
-  EXPECT_GT(s.ankle(30, 1).y, swing_before_m - 1e-3);
-}
+constexpr std::array<Method, 2> kMethods{Method::kStrict, Method::kThesis};
 
-TEST(AdaptToGround, BeginsToSinkBeforeTheFootBears) {
-  Standing s(60, 0.10);
-  const double before_m = s.root_m(0);
-  s.bear(0, 20, 40);
-  s.adapt();
-  EXPECT_LT(s.root_m(17), before_m - 0.01);
-  EXPECT_EQ(s.root_m(5), before_m);
-}
-
-TEST(AdaptToGround, SinksSmoothly) {
-  Standing s(60, 0.10);
-  s.bear(0, 20, 40);
-  s.adapt();
-  for (std::size_t t = 1; t + 1 < 60; ++t) {
-    // 10 cm within 0.2 s and back to rest takes at least 4 * 0.1 / 0.2^2 = 10 m/s^2.
-    const double acceleration =
-        (s.root_m(t - 1) - 2 * s.root_m(t) + s.root_m(t + 1)) * 3600.0;
-    EXPECT_LT(std::abs(acceleration), 30.0) << t;
-  }
-}
-
-// The window is limited to the motion; otherwise this would take an hour, or overflow.
-TEST(AdaptToGround, MayLookFurtherThanTheMotionGoes) {
-  Standing s(30, 0.10);
-  const double before_m = s.root_m(0);
-  s.bear(0, 20, 25);
-  GroundOptions options;
-  options.anticipation_s = 1e9;
-  s.adapt(options);
-  EXPECT_NEAR(before_m - s.root_m(0), 0.10, 1e-3);
-  EXPECT_NEAR(before_m - s.root_m(29), 0.10, 1e-3);
-}
-
-TEST(AdaptToGround, CountsFramesInWhichALegCannotReach) {
-  Standing s(30, 0.0);
-  // The right footprint is the mean of two places three metres apart.
-  for (std::size_t t = 15; t < 30; ++t) s.poses[t].root.x += 3.0 / s.map.leg_length_m;
-  s.bear(1, 0, 29);
-  EXPECT_EQ(s.adapt().unreachable_frames, 30);
-}
-
-TEST(AdaptToGround, KeepsBothFeetOnAFloorThatTheSourceSinksInto) {
-  Standing s(30, -0.08);
-  s.adapt();  // No contacts: only the floor itself.
-  EXPECT_GE(s.ankle(15, 0).y, s.map.feet[0].ankle_height_m - 1e-9);
-}
-
-// A foot that swings between two stances in a straight line at constant speed.
-struct Swing {
-  FootMap foot{0.08, 0.02, {0, -0.06, 0.13}, true};
-  std::vector<FootPlace> reference{90};
-  FootContacts contacts;
-
-  Swing() {
-    for (std::size_t t = 0; t < 90; ++t) {
-      const double s = std::clamp((static_cast<double>(t) - 30.0) / 29.0, 0.0, 1.0);
-      const double eased = s * s * s * (10 + s * (6 * s - 15));
-      // The stances slide, differently, and float.
-      const double slide = 0.0003 * static_cast<double>(t);
-      reference[t].ankle_in_world = {
-          slide, 0.09 + 0.1 * eased * (1 - eased), eased + slide};
-      reference[t].foot = glm::angleAxis(0.05, glm::dvec3(0, 0, 1));
+TEST(GroundReference, KeepsTheReferenceOnFlatGroundToTheBit) {
+  for (const double flexibility_rad : {0.0, 1.5}) {
+    const Character character = thesis_human(flexibility_rad);
+    const Pose pose = standing_pose(character);
+    ThesisLane lane(character, both_feet(character, pose, {}, {}), pose);
+    const auto rotation = lane.lanes.reference_rotation;
+    const auto place = lane.lanes.reference_place;
+    ground_reference(lane.plan, lane.settings, false, true, lane.lanes);
+    for (const int j : lane.plan.live) {
+      const auto i = static_cast<std::size_t>(j);
+      const Quat<double>& q = lane.lanes.reference_rotation[i];
+      EXPECT_EQ(q.w, rotation[i].w);
+      EXPECT_EQ(q.x, rotation[i].x);
+      EXPECT_EQ(q.y, rotation[i].y);
+      EXPECT_EQ(q.z, rotation[i].z);
+      EXPECT_EQ(length(lane.lanes.reference_place[i] - place[i]), 0.0);
+      EXPECT_EQ(length(lane.lanes.place[i] - place[i]), 0.0);
     }
-    contacts.heel = contacts.ball = contacts.stance = {{0, 29}, {60, 89}};
   }
-  [[nodiscard]] std::vector<FootPlace> plan() const {
-    return plan_foot_path(reference, contacts, foot, 0.85, {60.0});
+}
+
+// Thesis 4.2.4.2: the root moves by the mean displacement of the footprints.
+TEST(GroundReference, TakesTheRootHalfWayUpAStep) {
+  const Character character = thesis_human();
+  const Pose reference = standing_pose(character, 0.6);
+  for (const Method method : kMethods) {
+    for (const glm::dvec3& by_m : {glm::dvec3(0, 0.06, 0),
+                                   glm::dvec3(0.05, 0.06, 0.08),
+                                   glm::dvec3(0, -0.06, 0)}) {
+      const ConstraintSet set = both_feet(character, reference, by_m, {});
+      Adapter adapter = make_adapter(character, set, by(method));
+      Pose out;
+      static_cast<void>(adapter.adapt(reference, 0.0, out));
+      const glm::dvec3 moved_m = out.root_in_world - reference.root_in_world;
+      EXPECT_LT(glm::distance(moved_m, 0.5 * by_m), kFloat_m);
+      for (std::size_t c = 0; c < 2; ++c) {
+        const auto& support = std::get<Support>(set.constraints[c].goal);
+        EXPECT_LT(
+            glm::distance(place_in_world(character, out, c ? "rightFoot" : "leftFoot"),
+                          *support.footprint_in_world),
+            kFloat_m);
+      }
+    }
+  }
+}
+
+// Thesis 4.2.4.1: never higher than the straight leg allows; feet exact.
+TEST(GroundReference, LowersTheRootAsFarAsTheLowerFootNeeds) {
+  const Character character = thesis_human();
+  const Pose reference = standing_pose(character, 0.2);
+  for (const Method method : kMethods) {
+    const ConstraintSet set = both_feet(character, reference, {0, -0.3, 0}, {});
+    Adapter adapter = make_adapter(character, set, by(method));
+    Pose out;
+    static_cast<void>(adapter.adapt(reference, 0.0, out));
+    const auto at = [&](const char* s) { return place_in_world(character, out, s); };
+    const double leg_m = glm::distance(at("leftUpperLeg"), at("leftLowerLeg")) +
+                         glm::distance(at("leftLowerLeg"), at("leftFoot"));
+    EXPECT_NEAR(glm::distance(at("leftUpperLeg"), at("leftFoot")), leg_m, 1e-5);
+    EXPECT_LT(out.root_in_world.y, reference.root_in_world.y - 0.15);
+    // Along the vertical only.
+    EXPECT_NEAR(out.root_in_world.x, reference.root_in_world.x, kFloat_m);
+    EXPECT_NEAR(out.root_in_world.z, reference.root_in_world.z, kFloat_m);
+    const auto& support = std::get<Support>(set.constraints[0].goal);
+    EXPECT_LT(glm::distance(at("leftFoot"), *support.footprint_in_world), kFloat_m);
+  }
+}
+
+// The default target of the centre of mass is that of the grounded reference.
+TEST(GroundReference, TakesTheWantedCentreOfMassAlong) {
+  const Character character = thesis_human();
+  const Pose reference = standing_pose(character, 0.6);
+  const glm::dvec3 by_m(0.1, 0.0, 0.05);
+  for (const Method method : kMethods) {
+    AdaptOptions options = by(method);
+    options.balance = BalanceMode::kHorizontal;
+    const ConstraintSet set = both_feet(character, reference, by_m, by_m);
+    Adapter adapter = make_adapter(character, set, options);
+    Pose out;
+    static_cast<void>(adapter.adapt(reference, 0.0, out));
+    const glm::dvec3 moved_m =
+        centre_of_mass_of(character, out) - centre_of_mass_of(character, reference);
+    EXPECT_NEAR(moved_m.x, by_m.x, 1.1e-4);
+    EXPECT_NEAR(moved_m.z, by_m.z, 1.1e-4);
+  }
+}
+
+// A step that fades in is anticipated: the root rises with the support's activation.
+TEST(GroundReference, AnticipatesAStepAsItsSupportBegins) {
+  const Character character = thesis_human();
+  const Pose reference = standing_pose(character, 0.6);
+  for (const Method method : kMethods) {
+    ConstraintSet set = both_feet(character, reference, {0, 0.06, 0}, {});
+    set.constraints[0].activation = {0.0, std::nullopt, 1.0, 0.0};
+    Adapter adapter = make_adapter(character, set, by(method));
+    double before_m = reference.root_in_world.y - 1e-6;
+    for (int k = 0; k <= 20; ++k) {
+      Pose out;
+      static_cast<void>(adapter.adapt(reference, 0.05 * k, out));
+      EXPECT_GE(out.root_in_world.y, before_m - 1e-6);
+      // The quintic is at most 1.875 times as fast as even progress.
+      EXPECT_LT(out.root_in_world.y - before_m, 0.03 * 0.05 * 1.9 + 1e-5);
+      before_m = out.root_in_world.y;
+    }
+    EXPECT_NEAR(before_m - reference.root_in_world.y, 0.03, kFloat_m);
+  }
+}
+
+struct Reaching {
+  Character character;
+  Pose reference;
+  Pose out;
+  [[nodiscard]] double knee_rad() const {
+    const auto at = [&](const char* s) { return place_in_world(character, out, s); };
+    const glm::dvec3 thigh = glm::normalize(at("leftLowerLeg") - at("leftUpperLeg"));
+    const glm::dvec3 shank = glm::normalize(at("leftFoot") - at("leftLowerLeg"));
+    return std::acos(std::min(1.0, glm::dot(thigh, shank)));
+  }
+  [[nodiscard]] double trunk_thigh_rad() const {
+    const auto at = [&](const char* s) { return place_in_world(character, out, s); };
+    const glm::dvec3 trunk = glm::normalize(at("chest") - at("spine"));
+    const glm::dvec3 thigh = glm::normalize(at("leftLowerLeg") - at("leftUpperLeg"));
+    return std::acos(glm::dot(trunk, thigh));
   }
 };
 
-TEST(PlanFoot, HoldsAFootStillAndFlatWhileItStands) {
-  const auto plan = Swing().plan();
-  for (std::size_t t = 1; t < 30; ++t) {
-    EXPECT_EQ(plan[t].ankle_in_world, plan[0].ankle_in_world);
-    EXPECT_LT(glm::distance(plan[t].foot * glm::dvec3(0, 1, 0), glm::dvec3(0, 1, 0)),
-              1e-12);
+// Both hands towards the floor before the feet, knees straight in the reference.
+Reaching reach_down(Method method, double flexibility_rad, double height_m) {
+  Reaching out{thesis_human(flexibility_rad), {}, {}};
+  out.reference = standing_pose(out.character, 0.02);
+  ConstraintSet set = both_feet(out.character, out.reference, {}, {});
+  set.constraints.push_back(contact_of("leftHand", {0.15, height_m, 0.35}));
+  set.constraints.push_back(contact_of("rightHand", {-0.15, height_m, 0.35}));
+  AdaptOptions options = by(method);
+  options.root_for_constraints = 0.0;
+  Adapter adapter = make_adapter(out.character, set, options);
+  static_cast<void>(adapter.adapt(out.reference, 0.0, out.out));
+  return out;
+}
+
+// Figure 4.13: the stiffer the subject, the more the knees bend to reach the floor. The
+// model is that of the header: a knee bent by f lets the trunk come f nearer to the
+// thigh.
+TEST(Hamstrings, BendTheKneesOfAStiffSubject) {
+  for (const Method method : kMethods) {
+    const Reaching supple = reach_down(method, 0.0, 0.25);
+    EXPECT_LT(supple.knee_rad(), 0.1);
+    double before_rad = supple.knee_rad();
+    for (const double limit_rad : {1.6, 1.9}) {
+      ASSERT_LT(supple.trunk_thigh_rad(), limit_rad) << "the scene asks for too little";
+      const Reaching stiff = reach_down(method, limit_rad, 0.25);
+      EXPECT_GT(stiff.knee_rad(), before_rad + 0.05);
+      EXPECT_LT(stiff.out.root_in_world.y, supple.out.root_in_world.y - 0.005);
+      // Up to the effect of the legs' different pull and of different thigh and shank
+      // lengths.
+      EXPECT_GT(stiff.trunk_thigh_rad() + stiff.knee_rad(), limit_rad - 0.05);
+      before_rad = stiff.knee_rad();
+    }
   }
 }
 
-TEST(PlanFoot, PutsTheFootprintWhereTheReferenceStandsOnAverage) {
-  const Swing swing;
-  glm::dvec3 mean(0.0);
-  for (std::size_t t = 0; t < 30; ++t) mean += swing.reference[t].ankle_in_world / 30.0;
-  const glm::dvec3 print = swing.plan()[10].ankle_in_world;
-  EXPECT_LT(glm::distance(print, glm::dvec3(mean.x, 0.08, mean.z)), 1e-12);
-}
-
-// Neither position nor speed jumps where the contact ends and begins.
-TEST(PlanFoot, BlendsOutOfAndIntoContactWithoutAJump) {
-  const Swing swing;
-  const auto plan = swing.plan();
-  const auto acceleration = [](const std::vector<FootPlace>& p, std::size_t t) {
-    return glm::length(p[t - 1].ankle_in_world - 2.0 * p[t].ankle_in_world +
-                       p[t + 1].ankle_in_world) *
-           3600.0;
-  };
-  double reference = 0.0;
-  double planned = 0.0;
-  for (std::size_t t = 1; t + 1 < plan.size(); ++t) {
-    reference = std::max(reference, acceleration(swing.reference, t));
-    planned = std::max(planned, acceleration(plan, t));
-  }
-  EXPECT_LT(planned, 1.25 * reference);
-}
-
-// A reference that is moving when its contact ends is joined without a kink: its own
-// 0.12 m/s, taken up within one frame at 60 Hz, would be 7.2 m/s^2.
-TEST(PlanFoot, TakesUpTheSpeedOfTheReferenceGradually) {
-  Swing swing;
-  for (std::size_t t = 0; t < 90; ++t) {
-    swing.reference[t].ankle_in_world.x += 0.002 * static_cast<double>(t);
-  }
-  const auto plan = swing.plan();
-  for (const std::size_t t : {29U, 60U}) {
-    const glm::dvec3 step_change = plan[t - 1].ankle_in_world -
-                                   2.0 * plan[t].ankle_in_world +
-                                   plan[t + 1].ankle_in_world;
-    EXPECT_LT(std::abs(step_change.x) * 3600.0, 1.5);
-  }
-}
-
-// Standing on the ball, the foot turns about it and the ball does not move.
-TEST(PlanFoot, TurnsAFootAboutTheJointThatBears) {
-  Swing swing;
-  for (std::size_t t = 20; t < 30; ++t) {
-    swing.reference[t].foot =
-        glm::angleAxis(0.04 * static_cast<double>(t - 19), glm::dvec3(1, 0, 0));
-  }
-  swing.contacts.heel = {{0, 19}, {60, 89}};
-  const auto plan = swing.plan();
-  const auto ball = [&](std::size_t t) {
-    return plan[t].ankle_in_world + plan[t].foot * swing.foot.ball_from_ankle_in_t_pose;
-  };
-  for (std::size_t t = 1; t < 30; ++t) EXPECT_LT(glm::distance(ball(t), ball(0)), 1e-12);
-  EXPECT_GT(plan[29].ankle_in_world.y, plan[0].ankle_in_world.y + 0.02);
-}
-
-TEST(PlanFoot, LeavesAFootThatNeverBearsToItsReference) {
-  Swing swing;
-  swing.contacts = {};
-  for (FootPlace& place : swing.reference) place.ankle_in_world.y += 1.0;
-  const auto plan = swing.plan();
-  for (std::size_t t = 0; t < plan.size(); ++t) {
-    EXPECT_LT(glm::distance(plan[t].ankle_in_world, swing.reference[t].ankle_in_world),
-              1e-4);
+TEST(Hamstrings, DoNotActOnASmallBend) {
+  for (const Method method : kMethods) {
+    const Reaching free = reach_down(method, 0.0, 0.9);
+    const Reaching limited = reach_down(method, 1.2, 0.9);
+    EXPECT_LT(glm::distance(free.out.root_in_world, limited.out.root_in_world), 1e-12);
+    EXPECT_EQ(free.knee_rad(), limited.knee_rad());
   }
 }
 
