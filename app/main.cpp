@@ -4,7 +4,9 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -74,6 +76,19 @@ ProgramName name_of(const CLI::App& app, const char* called) {
   return {called == nullptr ? "" : called, std::move(commands)};
 }
 
+/// Returns true if the words ask for JSON, also when the rest of the line is wrong.
+bool has_json_progress(std::span<char* const> words) {
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const std::string_view word = words[i];
+    if (word == "--progress=json") return true;
+    if (word == "--progress" && i + 1 < words.size() &&
+        std::string_view(words[i + 1]) == "json") {
+      return true;
+    }
+  }
+  return false;
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"marey turns camera-seen markers into clean human motion on any body"};
   app.formatter(std::make_shared<PlainHelp>());
@@ -107,9 +122,11 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    return static_cast<int>(
-        Console(ProgressStyle::kAuto, name_of(app, argv[0]))
-            .fail(usage_error(app, error, {argv, static_cast<std::size_t>(argc)})));
+    const std::span<char* const> words(argv, static_cast<std::size_t>(argc));
+    const ProgressStyle style =
+        has_json_progress(words) ? ProgressStyle::kJson : ProgressStyle::kAuto;
+    return static_cast<int>(Console(style, name_of(app, argv[0]))
+                                .fail(usage_error(app, error, {argv, words.size()})));
   }
   Console console(args.style_of_progress(), name_of(app, argv[0]));
   const Exit exit = chosen(console);
@@ -117,9 +134,9 @@ int run(int argc, char** argv) {
   if (is_written || exit != Exit::kOk) return static_cast<int>(exit);
   return static_cast<int>(console.fail({Errc::kDevice,
                                         "standard output",
-                                        "what was asked for cannot be written",
-                                        "free some disk space, or read on in the other "
-                                        "program"}));
+                                        "the output cannot be written",
+                                        "free some disk space, or let the program that "
+                                        "reads it run to its end"}));
 }
 
 }  // namespace

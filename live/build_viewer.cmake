@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The marey authors
 # SPDX-License-Identifier: Apache-2.0
 
-# Sets viewer_folder, where the served page is, and viewer_files, what it is made of; and for
+# Sets viewer_folder, where the served page is, and viewer_files, its files; and for
 # app/pages the global properties MAREY_REPORT_PARTS (functions of app/pages/report_page.h,
 # each with its files) and MAREY_REPORT_FILES: as npm builds them in live/viewer, or plain
 # pages that state that these are left out.
@@ -68,13 +68,13 @@ set(lock ${viewer}/package-lock.json)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${lock})
 if(NOT EXISTS ${viewer}/node_modules/.package-lock.json
    OR ${lock} IS_NEWER_THAN ${viewer}/node_modules/.package-lock.json)
-  message(STATUS "Fetching what the live page is made of (npm)")
+  message(STATUS "Fetching the packages of the live page (npm)")
   execute_process(
     COMMAND ${npm_env} ${NPM} ci --no-audit --no-fund --loglevel=error
     WORKING_DIRECTORY ${viewer} RESULT_VARIABLE failed)
   if(failed)
     message(FATAL_ERROR
-      "npm could not fetch what the live page is made of (see above). Next: connect this "
+      "npm could not fetch the packages of the live page (see above). Next: connect this "
       "machine to a network and configure again; ${instead}.")
   endif()
 endif()

@@ -12,7 +12,7 @@
 #include "core/finding.h"
 #include "recordings/session/session.h"
 
-// Checks that trials show what their `kind` says: standing, or the range of motion.
+// Checks that trials show the motion of their `kind`: standing, or the range of motion.
 
 namespace marey::app {
 

@@ -168,7 +168,7 @@ Status check_range(const Trial& trial,
   return bad_input(file.string(),
                    "frames " + std::to_string(trial.frames->first) + " to " +
                        std::to_string(trial.frames->last) +
-                       " were asked for, but it has only " + std::to_string(instants),
+                       " are beyond its end: it has only " + std::to_string(instants),
                    "correct the trial's range of frames");
 }
 

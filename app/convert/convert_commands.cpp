@@ -81,6 +81,12 @@ Exit run_convert(const ConvertArguments& arguments, Console& console) {
     return console.fail(ok.error());
   }
   if (is_body_file(arguments.in)) return convert_motion(arguments, console);
+  if (!recordings::check_marker_extension(arguments.in)) {
+    return console.fail(bad_input(
+        arguments.in.string(),
+        "marey does not convert files of this kind",
+        "give labelled markers (.c3d or .trc), or a motion (" + body_extensions() + ")"));
+  }
   if (arguments.rate_hz || arguments.to_rate_hz || !arguments.skeleton.empty() ||
       !arguments.bvh_dialect.empty() || !arguments.neutral.empty()) {
     return console.fail(

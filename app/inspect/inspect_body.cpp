@@ -151,8 +151,8 @@ Result<Json> inspect_body(const std::filesystem::path& file,
     if (!ok) return ok.error();
     console.say("picture: " + options.picture.string());
   }
-  // A map or a neutral that was named and does not fit is a mistake; without one, what is
-  // known of the body is the answer.
+  // A named map or neutral that does not fit is an error. Without one, the answer is the
+  // incomplete body.
   const bool names_more = options.bone_map || !options.neutral.empty();
   if (!body && names_more) return body.error();
   return out;

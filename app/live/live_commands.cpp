@@ -197,10 +197,15 @@ void add_live_command(CLI::App& app,
                    live.vmc_mtu,
                    "Largest packet in bytes; 0: one bundle a frame, as on this machine")
       ->check(zero_or_between(live::kMinPacketBytes, live::kMaxPacketBytes));
-  command->add_option("--vmc-listen", live.vmc_listen, "Port to receive commands on")
-      ->check(between(1, 65535));
-  command->add_flag("--vmc-send-only", live.vmc_send_only, "Receive no commands");
-  command->add_flag("--vmc-deaf", live.vmc_send_only)->group("");  // The former name.
+  CLI::Option* listens =
+      command->add_option("--vmc-listen", live.vmc_listen, "Port to receive commands on")
+          ->check(whole_between(1, 65535));
+  command->add_flag("--vmc-send-only", live.vmc_send_only, "Receive no commands")
+      ->excludes(listens);
+  command
+      ->add_flag("--vmc-deaf", live.vmc_send_only)  // The former name.
+      ->excludes(listens)
+      ->group("");
   command
       ->add_option("--vrchat",
                    live.vrchat,

@@ -48,7 +48,7 @@ Result<std::vector<CameraId>> chosen_cameras(const Session& session,
       for (const std::string& one : session.cameras) names += " " + one;
       return bad_input(session.file.string(),
                        "there is no camera \"" + name + "\"",
-                       "choose of:" + names);
+                       "choose one of:" + names);
     }
   }
   std::vector<CameraId> chosen;
@@ -66,12 +66,16 @@ Result<std::vector<CameraId>> chosen_cameras(const Session& session,
     if (is_wanted && is_there) chosen.push_back(id);
   }
   if (chosen.size() >= 2) return chosen;
+  const std::string which = arguments.cameras.empty() ? "cameras" : "named cameras";
   return bad_input(session.file.string(),
-                   std::to_string(chosen.size()) + " of its cameras " +
-                       (trials.empty() ? std::string("have a device")
-                                       : "have a video in trial " + names_of(trials)) +
-                       ", and tracking needs at least two",
-                   trials.empty()
+                   "tracking needs at least two " + which + " with a " +
+                       (trials.empty() ? std::string("device")
+                                       : "video in trial " + names_of(trials)) +
+                       ", and there " + (chosen.empty() ? "is none" : "is one"),
+                   !arguments.cameras.empty()
+                       ? "name two or more such cameras with --camera, or leave "
+                         "the option out"
+                   : trials.empty()
                        ? "give each [[camera]] its device = \"/dev/video0\", or play a "
                          "recorded trial with --play"
                        : "play another trial");

@@ -139,10 +139,10 @@ void add_repair_command(CLI::App& app,
       ->add_option("--max-sigma",
                    args.max_sigma_m,
                    "Samples with a larger sigma are left empty [m]")
-      ->check(CLI::Range(0.001, 10.0));
+      ->check(between(0.001, 10.0));
   command
       ->add_option("--most-sigma", args.max_sigma_m)  // The former name, not listed.
-      ->check(CLI::Range(0.001, 10.0))
+      ->check(between(0.001, 10.0))
       ->group("");
   command->add_flag("--json", args.json, "Print OUT.repair.json on standard output");
   command->callback(

@@ -110,7 +110,7 @@ void add_record_command(CLI::App& app,
   command->add_option("SESSION", args.session, "session.toml, or its folder")->required();
   command->add_option("-o,--out", args.out, "Folder of the take")->required();
   command->add_option("--trial", args.trial, "The session's trial to record")->required();
-  command->add_option("--seconds", args.seconds, "Stop by itself after so long")
+  command->add_option("--seconds", args.seconds, "Stop after this time [s]")
       ->check(between(0.001, 1e6));
   command->callback(
       [&] { chosen = [&args](Console& console) { return run_record(args, console); }; });

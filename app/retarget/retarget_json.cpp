@@ -225,7 +225,8 @@ std::string summary_of(const AvatarResult& avatar) {
   std::array<char, 160> text{};
   std::snprintf(text.data(),
                 text.size(),
-                ": %zu frames, stance feet slide %.2f cm/s (%.2f before the ground), "
+                ": %zu frames, stance feet slide %.2f cm/s (%.2f before feet were fixed "
+                "to the ground), "
                 "deepest skin %.1f mm",
                 avatar.retargeted.motion.poses.size(),
                 report.after.mean_slide_cm_per_s,

@@ -97,7 +97,8 @@ Status check_outs(const RetargetArguments& args, const RetargetPlan& plan) {
     if (!names.insert(out.lexically_normal()).second) {
       return bad_input(out.string(),
                        "two results would have this name",
-                       "rename an avatar's file: results are named after it");
+                       "give --constraints-out another name, or rename an avatar's file: "
+                       "results are named after it");
     }
     for (const auto& [in, role] : inputs_of(args, plan)) {
       std::error_code absent;
@@ -106,6 +107,12 @@ Status check_outs(const RetargetArguments& args, const RetargetPlan& plan) {
                        "the result would replace " + role,
                        "give the result another name or folder");
     }
+  }
+  const fs::path& constraints = args.constraints_out;
+  if (!constraints.empty() && kind_by_extension(constraints) != ".xml") {
+    return bad_input(constraints.string(),
+                     "constraints are written as .xml",
+                     "give a name that ends in .xml");
   }
   return Done{};
 }

@@ -36,6 +36,8 @@ void install(SignalHandler handler) {
   std::signal(SIGTERM, handler);
   // SIGHUP: the terminal was closed. If nohup(1) set it to be ignored, it stays ignored.
   if (std::signal(SIGHUP, handler) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  // A file above the limit of its size is an error of writing, with a message.
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 }  // namespace

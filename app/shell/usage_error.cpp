@@ -35,6 +35,7 @@ std::vector<std::string> names_of_commands(const CLI::App& app) {
 /// --help.
 void add_names_of_options(const CLI::App& command, std::vector<std::string>& names) {
   for (const CLI::Option* option : command.get_options()) {
+    if (option->get_group().empty()) continue;  // A former name.
     for (const std::string& name : option->get_lnames()) {
       if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     }

@@ -59,7 +59,7 @@ class SharedProgress {
 Error unreached_range(const std::string& name, const FrameRange& range, int frames) {
   return bad_input(name,
                    "frames " + std::to_string(range.first) + " to " +
-                       std::to_string(range.last) + " were asked for, but it has only " +
+                       std::to_string(range.last) + " are beyond its end: it has only " +
                        std::to_string(frames),
                    "correct the trial's range of frames");
 }

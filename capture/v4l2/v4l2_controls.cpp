@@ -50,7 +50,7 @@ std::string text_in_ms(double time_s) {
 }
 
 void compare_exposure(double asked_s, DeviceSettings& settings) {
-  const std::string asked = "asked for an exposure of " + text_in_ms(asked_s);
+  const std::string asked = "requested an exposure of " + text_in_ms(asked_s);
   if (!settings.exposure_s) {
     settings.differences.push_back(asked + ", and the camera has no such control");
   } else if (settings.exposure_is_automatic) {
@@ -66,7 +66,7 @@ void compare(const char* what,
              std::vector<std::string>& differences) {
   if (!asked || asked == got) return;
   differences.push_back(
-      "asked for a " + std::string(what) + " of " + std::to_string(*asked) +
+      "requested a " + std::string(what) + " of " + std::to_string(*asked) +
       (got ? ", got " + std::to_string(*got) : ", and the camera has no such control"));
 }
 

@@ -85,11 +85,11 @@ Error plain_error(const std::string& path, V4l2Step step, int number) {
           path,
           "its USB bus has no bandwidth left for this stream: other cameras use it too",
           "plug it into a port of another USB controller (not the same hub), use "
-          "MJPG, or ask for a smaller size or a lower rate");
+          "MJPG, a smaller size or a lower rate");
     case ENOMEM:
       return error(path,
                    what_failed(step) + ": there is not enough memory",
-                   "close other programs, or ask for a smaller size");
+                   "close other programs, or choose a smaller size");
     default:
       return other_error(path, step, number);
   }

@@ -158,10 +158,10 @@ void set_rate(V4l2Kernel& kernel, int fd, FrameRate asked, DeviceSettings& setti
   }
   if (settings.rate.hz <= 0.0) {
     settings.differences.push_back(
-        "asked for " + rate_text(asked) +
+        "requested " + rate_text(asked) +
         " frames/s, and the driver does not report the actual rate");
   } else if (std::abs(settings.rate.hz - asked.hz) > 0.01 * asked.hz) {
-    settings.differences.push_back("asked for " + rate_text(asked) + " frames/s, got " +
+    settings.differences.push_back("requested " + rate_text(asked) + " frames/s, got " +
                                    rate_text(settings.rate));
   }
 }
@@ -261,7 +261,7 @@ Status set_format(V4l2Kernel& kernel,
   if (!known) {
     return Error{Errc::kDevice,
                  request.path,
-                 std::string("asked for ") + name(format) + ", it gives " +
+                 std::string("requested ") + name(format) + ", got " +
                      fourcc_text(got.pixelformat) + ", which marey does not read",
                  "use a camera, or a mode of it, with MJPG, YUYV, NV12 or GREY"};
   }
@@ -280,12 +280,12 @@ Status set_format(V4l2Kernel& kernel,
                         ? 0
                         : static_cast<int>(std::max(got.bytesperline, row_bytes));
   if (*known != format) {
-    settings.differences.push_back(std::string("asked for ") + name(format) + ", got " +
+    settings.differences.push_back(std::string("requested ") + name(format) + ", got " +
                                    name(*known));
   }
   if (settings.width_px != request.width_px || settings.height_px != request.height_px) {
     settings.differences.push_back(
-        "asked for " + size_of(request.width_px, request.height_px) + ", got " +
+        "requested " + size_of(request.width_px, request.height_px) + ", got " +
         size_of(settings.width_px, settings.height_px));
   }
   set_rate(kernel, fd, request.rate, settings);

@@ -26,7 +26,7 @@ Error no_such_frame(const std::string& name, int frame, std::size_t has) {
   return bad_input(name,
                    "there is no frame " + std::to_string(frame) + ", it has " +
                        std::to_string(has) + ", counted from 0",
-                   "ask for an earlier frame");
+                   "choose an earlier frame");
 }
 
 struct DestroyEncoder {

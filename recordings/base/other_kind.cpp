@@ -25,7 +25,7 @@ constexpr std::array kSignatures{
     Signature{0, "HIERARCHY"sv, kBvhKind},
     Signature{0, ":ASF"sv, "an ASF skeleton"},
     Signature{0, "PathFileType"sv, kTrcKind},
-    Signature{0, "SQLite format 3"sv, "a recorded take"},
+    Signature{0, "SQLite format 3"sv, "an SQLite file, such as a recorded take"},
     Signature{0, "PK\x03\x04"sv, "a ZIP archive or an NPZ motion"},
     Signature{0, "%PDF"sv, "a PDF document"},
     Signature{0, "\x89PNG"sv, "a picture"},

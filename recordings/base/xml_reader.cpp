@@ -158,6 +158,14 @@ bool XmlReader::require_text() {
 
 pugi::xml_node XmlReader::root(const char* name) {
   if (!require_text()) return {};
+  if (text_.find_first_not_of(" \t\r\n") == std::string::npos) {
+    fail_at(0, "the file is empty", "copy or export it again");
+    return {};
+  }
+  if (text_.find('<') == std::string::npos) {
+    fail_at(0, "this is not an XML file", "name an XML file");
+    return {};
+  }
   const pugi::xml_parse_result parsed = xml_.load_buffer(
       text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
   if (!parsed) {
@@ -283,7 +291,7 @@ void XmlReader::keep_unknown(pugi::xml_node node,
     const std::string_view name = part.name();
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     if (unknown) unknown->push_back(verbatim(part));
-    std::string text = in_brackets(name) + " means nothing here and is " +
+    std::string text = in_brackets(name) + " is unknown here and is " +
                        (unknown ? "kept as it is" : "not kept");
     const std::string nearest = suggestion(name, known);
     if (nearest.starts_with("perhaps")) text += "; " + nearest;

@@ -70,7 +70,7 @@ void ConstraintReader::read_axes(pugi::xml_node root) {
   if (up == "Y" || up == "Z") return;
   xml_.fail(root,
             "up is \"" + std::string(up) + "\" and may be \"Y\" or \"Z\"",
-            "say which axis is up");
+            "write up=\"Y\" or up=\"Z\"");
 }
 
 glm::dvec3 ConstraintReader::read_vector(pugi::xml_node node) {

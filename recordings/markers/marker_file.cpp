@@ -13,7 +13,7 @@ namespace {
 
 Error unknown_kind(const std::filesystem::path& path) {
   return bad_input(path.string(),
-                   "labelled markers are read and written as .c3d and .trc alone",
+                   "labelled markers are read and written as .c3d and .trc only",
                    "give a file of one of these kinds");
 }
 

@@ -59,8 +59,8 @@ std::vector<std::string> distinct_labels(std::vector<std::string> labels,
     seen.insert(label);
   }
   if (doubled > 0) {
-    notes.push_back(std::to_string(doubled) + " markers have the label of another (" +
-                    first_doubled + "...); a number is appended to theirs");
+    notes.push_back("labels that occur before, to which a number is appended: " +
+                    std::to_string(doubled) + " (" + first_doubled + "...)");
   }
   return labels;
 }

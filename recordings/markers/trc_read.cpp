@@ -65,14 +65,15 @@ class Rows {
   std::vector<std::optional<glm::dvec3>> samples;
 
   void note_counts() {
-    const auto note_count = [&](std::size_t count, const char* what) {
-      if (count > 0) notes().push_back(std::to_string(count) + what);
+    const auto note_count = [&](const char* what, std::size_t count) {
+      if (count > 0) notes().push_back(what + (": " + std::to_string(count)));
     };
-    note_count(zeros_, " positions are exactly 0, 0, 0, and count as not seen");
-    note_count(partial_, " positions lack a coordinate, and count as not seen");
-    note_count(short_, " rows end before the last marker; the rest counts as not seen");
-    note_count(commas_, " numbers have a comma for a decimal point");
-    note_count(far_, " positions are beyond 10 km, and count as not seen");
+    note_count("positions that are exactly 0, 0, 0 and count as not seen", zeros_);
+    note_count("positions that lack a coordinate and count as not seen", partial_);
+    note_count("rows that end before the last marker; the rest counts as not seen",
+               short_);
+    note_count("numbers with a comma for a decimal point", commas_);
+    note_count("positions beyond 10 km that count as not seen", far_);
     const auto declared = header_.frames;
     if (declared && static_cast<std::size_t>(*declared) != times.size()) {
       notes().push_back("the header states " + std::to_string(*declared) +

@@ -130,8 +130,7 @@ class BvhParser {
       is_length_.push_back(is_position);
     }
     if (!reader_.rest_of_line().empty()) {
-      return fail("there are more than the " + std::to_string(*count) +
-                  " channels announced");
+      return fail("there are more channels than the declared " + std::to_string(*count));
     }
     file_.values_per_frame += channels.list.size();
     return Done{};
@@ -285,8 +284,8 @@ class BvhParser {
     }
     reader_.skip_blank();
     if (reader_.at_end()) return Done{};
-    return fail("there is more than the " + std::to_string(frame_count_) +
-                " frames announced");
+    return fail("there are more values than the declared " +
+                std::to_string(frame_count_) + " frames have");
   }
 
   Status frame_values() {

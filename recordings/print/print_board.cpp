@@ -251,7 +251,7 @@ Result<PrintedDocument> lay_out_board(const AprilGrid& grid,
         "gap",
         mm_text(grid.gap_m) + " between tags of " + mm_text(grid.tag_size_m) +
             " is too little for " + family.name,
-        "use at least " + mm_text(min_gap) + ": every tag wants white around it");
+        "use at least " + mm_text(min_gap) + ": each tag needs a white border");
   }
   return tile(picture_of(grid, family, patterns), frame_of(grid, family), pages);
 }

@@ -146,7 +146,7 @@ Result<Paper> parse_paper(std::string_view text) {
     }
   }
   return bad_input("page",
-                   in_quotes(text) + " is not a page size that marey knows",
+                   in_quotes(text) + " is not a page size",
                    "write A4, A3, Letter, or width and height as 210x297mm");
 }
 

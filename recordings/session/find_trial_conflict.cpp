@@ -97,7 +97,7 @@ std::optional<TrialConflict> find_trial_conflict(const Trial& trial,
                        "trial " + in_quotes(trial.name) +
                            " is the whole of a video of trial " + in_quotes(waved->name) +
                            ", in which the board moves",
-                       "say in which frames it lies on the floor: frames = [0, 30]"};
+                       "give the frames in which it lies on the floor: frames = [0, 30]"};
 }
 
 }  // namespace marey::recordings

@@ -182,7 +182,8 @@ Result<CapturePlan> parse_plan(std::string_view text, const std::string& file) {
   }
   root.allow({"format", "tag_size_m", "stature_m", "volume", "tag", "camera"});
   if (root.integer("format", {0, 1e6}) != 1) {
-    root.fail("format", "this format is not known", "write format = 1, or update marey");
+    root.fail(
+        "format", "the format is not supported", "write format = 1, or update marey");
   }
   CapturePlan plan;
   if (root.has("tag_size_m")) plan.tag_size_m = root.number("tag_size_m", kTag);

@@ -133,8 +133,8 @@ void check_settings() {
   if (!check(device.has_value(), "720p MJPG is answered")) return;
   std::string all;
   for (const auto& sentence : device->settings().differences) all += sentence + "; ";
-  check(has(all, "asked for MJPG, got YUYV"), "a substituted format is reported", all);
-  check(has(all, "asked for 30 frames/s, got"), "a lower rate is reported");
+  check(has(all, "requested MJPG, got YUYV"), "a substituted format is reported", all);
+  check(has(all, "requested 30 frames/s, got"), "a lower rate is reported");
   check(has(all, "exposure of 4 ms, and the camera has no such control"),
         "a missing control is reported");
   check(device->settings().gain == 200, "gain is set and read back");

@@ -124,7 +124,7 @@ TEST(MatchTimes, DeclinesARangeThatATakeDoesNotReach) {
     EXPECT_EQ(matched.error().code, Errc::kBadInput);
     EXPECT_EQ(matched.error().cause,
               "frames " + std::to_string(range.first) + " to " +
-                  std::to_string(range.last) + " were asked for, but it has only 90");
+                  std::to_string(range.last) + " are beyond its end: it has only 90");
   }
 }
 

@@ -138,6 +138,12 @@ TEST_F(PlainMessages, StateAllowedValues) {
             2,
             "--method must be strict or thesis, not \"magic\""},
            {{"inspect", "walk.bvh", "--json=maybe"}, 2, "--json takes no value"},
+           {{"repair", "walk.trc", "-o", "a.trc", "--max-sigma", "11"},
+            2,
+            "--max-sigma must be a number from 0.001 to 10, not 11"},
+           {{"live", "a", "--vmc-listen", "39540", "--vmc-send-only"},
+            2,
+            "cannot be used together"},
            {{"tags", "--out", "a.pdf", "--ids", "x", "--size", "8cm"}, 2, "\"x\""},
            {{"tags", "--out", "a.pdf", "--ids", "1", "--size", "8"}, 2, "has no unit"},
            {{"tags", "--out", "a.pdf", "--ids", "1", "--size", "8cm", "--page", "B9"},
@@ -166,6 +172,12 @@ TEST_F(PlainMessages, NameTheNearestNameOrTheHelp) {
   const ProgramRun run = run_program(program(), {"live", "a", "--frobnicate"});
   EXPECT_EQ(run.err.find("choose one of"), std::string::npos) << run.err;
   EXPECT_EQ(count_of(run.err, "--help"), 1U) << run.err;
+}
+
+TEST_F(PlainMessages, AreJsonIfProgressIs) {
+  const ProgramRun run = run_program(program(), {"--progress", "json", "view"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_TRUE(run.err.starts_with("{\"error\":")) << run.err;
 }
 
 TEST_F(PlainMessages, NameFilesOfOtherKinds) {

@@ -203,7 +203,7 @@ TEST(DetectVideos, RefusesARangeThatTheRecordingDoesNotReach) {
   const auto cameras = detect_tags_in_videos(std::vector{input});
   ASSERT_FALSE(cameras);
   EXPECT_EQ(cameras.error().message(),
-            "trial/a: frames 2 to 9 were asked for, but it has only 4. Next: correct the "
+            "trial/a: frames 2 to 9 are beyond its end: it has only 4. Next: correct the "
             "trial's range of frames.");
 }
 

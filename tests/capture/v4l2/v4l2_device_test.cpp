@@ -158,9 +158,9 @@ TEST(V4l2Settings, ReportSettingsThatTheDriverChanged) {
   EXPECT_EQ(got.format, PixelFormat::kYuyv);
   EXPECT_EQ(got.stride, 640);
   EXPECT_EQ(got.rate.hz, 12.5);
-  EXPECT_TRUE(says(got.differences, "asked for MJPG, got YUYV"));
-  EXPECT_TRUE(says(got.differences, "asked for 640x480, got 320x240"));
-  EXPECT_TRUE(says(got.differences, "asked for 30 frames/s, got 12.5"));
+  EXPECT_TRUE(says(got.differences, "requested MJPG, got YUYV"));
+  EXPECT_TRUE(says(got.differences, "requested 640x480, got 320x240"));
+  EXPECT_TRUE(says(got.differences, "requested 30 frames/s, got 12.5"));
 }
 
 TEST(V4l2Settings, AreReadBackFromTheControls) {
@@ -183,7 +183,7 @@ TEST(V4l2Settings, AreReadBackFromTheControls) {
   EXPECT_EQ(got.focus, 30);
   EXPECT_EQ(got.gain, 255);
   EXPECT_EQ(got.differences,
-            std::vector<std::string>{"asked for a gain of 300, got 255"});
+            std::vector<std::string>{"requested a gain of 300, got 255"});
   EXPECT_EQ(kernel.cameras[0].controls[V4L2_CID_EXPOSURE_AUTO_PRIORITY].value, 0);
   EXPECT_EQ(kernel.cameras[0].controls[V4L2_CID_FOCUS_AUTO].value, 0);
 }
@@ -200,9 +200,9 @@ TEST(V4l2Settings, ReportUnsupportedSettings) {
   ASSERT_TRUE(device);
   EXPECT_TRUE(device->settings().exposure_is_automatic);
   EXPECT_TRUE(says(device->settings().differences,
-                   "asked for an exposure of 4 ms, and the camera keeps it automatic"));
+                   "requested an exposure of 4 ms, and the camera keeps it automatic"));
   EXPECT_TRUE(says(device->settings().differences,
-                   "asked for a focus of 30, and the camera has no such control"));
+                   "requested a focus of 30, and the camera has no such control"));
 }
 
 TEST(V4l2Settings, KeepTheCamerasValuesWithoutARequest) {
@@ -259,8 +259,7 @@ TEST(V4l2Open, ReportsThatNoFormatIsReadable) {
   EXPECT_NE(refusal(kernel).cause.find("none of the picture formats"), std::string::npos);
   kernel.cameras[0].formats = {format(V4L2_PIX_FMT_YUYV, 640, 480, 30)};
   kernel.cameras[0].always_gives = V4L2_PIX_FMT_H264;
-  EXPECT_EQ(refusal(kernel).cause,
-            "asked for YUYV, it gives H264, which marey does not read");
+  EXPECT_EQ(refusal(kernel).cause, "requested YUYV, got H264, which marey does not read");
 }
 
 TEST(V4l2Open, WithoutBandwidthExplainsIt) {

@@ -22,6 +22,9 @@ TEST(Printable, ReplacesControlCharacters) {
   EXPECT_EQ(printable("a\x1b[31mb\nc\x7f"), "a?[31mb?c?");
   EXPECT_EQ(printable(std::string("a\0b", 3)), "a?b");
   EXPECT_EQ(printable("\xc2\x9b"), "??");  // U+009B begins a sequence of a terminal.
+  EXPECT_EQ(printable("\xe2\x80\xae"
+                      "fdp"),
+            "???fdp");  // U+202E turns the text round.
 }
 
 TEST(Printable, ReplacesBytesThatAreNotUtf8) {

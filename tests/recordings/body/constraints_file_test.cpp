@@ -161,11 +161,10 @@ TEST(ConstraintsFile, KeepsAndReportsUnknownElements) {
   ASSERT_EQ(file.set.constraints.size(), 1U);
   ASSERT_EQ(file.set.constraints[0].unknown_xml, std::vector{colour});
   ASSERT_EQ(file.notes.size(), 2U);
-  EXPECT_EQ(
-      file.notes[0],
-      "c.xml:8: <acuracy> means nothing here and is kept as it is; perhaps you mean "
-      "\"accuracy\"");
-  EXPECT_EQ(file.notes[1], "c.xml:3: <Gaze> means nothing here and is kept as it is");
+  EXPECT_EQ(file.notes[0],
+            "c.xml:8: <acuracy> is unknown here and is kept as it is; perhaps you mean "
+            "\"accuracy\"");
+  EXPECT_EQ(file.notes[1], "c.xml:3: <Gaze> is unknown here and is kept as it is");
   const std::string written = text_of(file.set);
   EXPECT_NE(written.find("\n    " + colour + "\n  </Distance>"), std::string::npos);
   EXPECT_NE(written.find("\n  " + gaze + "\n</ConstraintsSet>"), std::string::npos);
@@ -177,8 +176,7 @@ TEST(ConstraintsFile, ReportsUnknownContentThatItDoesNotKeep) {
   ASSERT_EQ(file.notes.size(), 2U);
   EXPECT_EQ(file.notes[0],
             "c.xml:14: <localOffset> has an attribute \"unit\", which is not kept");
-  EXPECT_NE(file.notes[1].find("<W> means nothing here and is not kept"),
-            std::string::npos);
+  EXPECT_NE(file.notes[1].find("<W> is unknown here and is not kept"), std::string::npos);
 }
 
 TEST(ConstraintsFile, ReportsTwentyNotesAndTheNumberOfTheOthers) {

@@ -66,18 +66,18 @@ TEST(ConstraintsFile, RefusesAnotherFileAndABrokenOne) {
       refusal(annex_with("</start_time>", "</start>")),
       "c.xml:7: not valid XML: Start-end tags mismatch. Next: correct this line, or copy "
       "the file again.");
-  EXPECT_EQ(refusal(""),
-            "c.xml:1: not valid XML: No document element found. Next: correct this line, "
-            "or copy the file again.");
+  EXPECT_EQ(refusal(""), "c.xml:1: the file is empty. Next: copy or export it again.");
+  EXPECT_EQ(refusal("notes\n"),
+            "c.xml:1: this is not an XML file. Next: name an XML file.");
   EXPECT_EQ(refusal(std::string("<\0C", 3)),
             "c.xml:1: this is not UTF-8 text. Next: name an XML file, or save it as "
             "UTF-8.");
   EXPECT_EQ(refusal(annex_with("ctrParade", "par\xe9")),
             "c.xml:1: this is not UTF-8 text. Next: name an XML file, or save it as "
             "UTF-8.");
-  EXPECT_EQ(
-      refusal(annex_with("xmlns", "up=\"X\" xmlns")),
-      "c.xml:2: up is \"X\" and may be \"Y\" or \"Z\". Next: say which axis is up.");
+  EXPECT_EQ(refusal(annex_with("xmlns", "up=\"X\" xmlns")),
+            "c.xml:2: up is \"X\" and may be \"Y\" or \"Z\". Next: write up=\"Y\" or "
+            "up=\"Z\".");
   EXPECT_EQ(
       refusal(std::string((std::size_t{16} << 20) + 1, ' ')),
       "c.xml: the file has more than 16 MiB, which constraints never need. Next: name "

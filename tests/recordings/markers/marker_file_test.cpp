@@ -292,7 +292,7 @@ TEST(MarkerFile, LabelsThatAreMissingOrDoubleAreMadeDifferent) {
   ASSERT_TRUE(read);
   EXPECT_EQ(read->tracks.labels, (std::vector<std::string>{"toe", "toe_2", "unnamed_3"}));
   EXPECT_TRUE(has_note(*read, "no label"));
-  EXPECT_TRUE(has_note(*read, "the label of another"));
+  EXPECT_TRUE(has_note(*read, "labels that occur before"));
 }
 
 TEST(MarkerFile, ReportsMarkersThatAreNeverSeen) {

@@ -90,7 +90,8 @@ TEST(Trc, ReportsRowsThatEndEarlyAndSkipsBlankLines) {
   EXPECT_EQ(file.tracks.frames(), 2U);
   EXPECT_TRUE(file.tracks.at(0, 0));
   EXPECT_FALSE(file.tracks.at(0, 1));
-  EXPECT_TRUE(has_note(file, "2 rows end before the last marker"));
+  EXPECT_TRUE(has_note(
+      file, "rows that end before the last marker; the rest counts as not seen: 2"));
 }
 
 TEST(Trc, ExtraTabsAndBlankColumnsDoNotMatter) {
@@ -129,7 +130,7 @@ TEST(Trc, CellsMayLieBetweenOtherMarksThanTabs) {
 TEST(Trc, ReportsCommasForDecimalPoints) {
   const MarkerFile file = read(head() + "1\t0,00\t1,5\t2\t3\t4\t5\t6\n");
   EXPECT_EQ(file.tracks.at(0, 0)->p_in_world.x, 0.0015);
-  EXPECT_TRUE(has_note(file, "2 numbers have a comma"));
+  EXPECT_TRUE(has_note(file, "numbers with a comma for a decimal point: 2"));
 }
 
 TEST(Trc, ReportsWrongCountsOfTheHeader) {

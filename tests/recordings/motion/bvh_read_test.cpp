@@ -214,9 +214,10 @@ TEST(ReadBvh, ReportsHowManyFramesAreMissing) {
 
 TEST(ReadBvh, RefusesMoreFramesThanAnnounced) {
   const std::string row = "0 0 0 0 0 0 0 0 0\n";
-  EXPECT_NE(refusal(kTwoJoints + row + row + row)
-                .find("walk.bvh:21: there is more than the 2 frames announced"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal(kTwoJoints + row + row + row)
+          .find("walk.bvh:21: there are more values than the declared 2 frames have"),
+      std::string::npos);
 }
 
 TEST(ReadBvh, ReportsTheLineWhereTheHierarchyEndsEarly) {
