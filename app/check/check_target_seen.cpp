@@ -137,7 +137,7 @@ Status check_target_seen(const recordings::Session& session,
                      seen->remedy);
   }
   std::string cause =
-      "no tag is seen in any of its " + std::to_string(camera.frames.size()) + " frames";
+      "no tag is seen in its " + std::to_string(camera.frames.size()) + " frames";
   if (wanted.shows_grid) {
     if (const auto seen = capture::survey_boards(camera.source, AprilGrid{})) {
       return bad_input(camera.source, cause + ", but " + seen->what, seen->remedy);

@@ -164,16 +164,22 @@ std::optional<Error> missing(const RefusedCommand& refused) {
   return std::nullopt;
 }
 
+/// Returns the name of an option, also of a hidden one, for which CLI11 returns none.
+std::string name_with_dashes(const CLI::Option& option) {
+  const std::vector<std::string>& names = option.get_lnames();
+  return names.empty() ? option.get_name() : "--" + names.front();
+}
+
 /// Returns the error for two options that exclude each other.
 std::optional<Error> excluded(const RefusedCommand& refused) {
   for (const CLI::Option* option : refused.options()) {
     if (option->count() == 0) continue;
     for (const CLI::Option* other : option->get_excludes()) {
       if (other->count() == 0) continue;
-      return bad_usage(
-          refused.called,
-          option->get_name() + " and " + other->get_name() + " cannot be used together",
-          "leave one of the two out");
+      return bad_usage(refused.called,
+                       name_with_dashes(*option) + " and " + name_with_dashes(*other) +
+                           " cannot be used together",
+                       "leave one of the two out");
     }
   }
   return std::nullopt;

@@ -326,7 +326,7 @@ TEST(LiveRefuses, MissingOrInvalidInputs) {
   expect_refused(with(played(), {"--camera", "cam7"}), 3, "there is no camera");
   expect_refused(with(played(), {"--camera", "cam1"}), 3, "at least two");
   expect_refused({"live", kSample.string(), "--play", "dance"}, 3, "there is no trial");
-  expect_refused({"live", kSample.string()}, 3, "have a device");
+  expect_refused({"live", kSample.string()}, 3, "at least two cameras with a device");
   expect_refused(with(played(), {"--vmc", "nobody=127.0.0.1"}), 3, "no avatar");
   expect_refused(with(played(), {"--vmc", "127.0.0.1:99999"}), 3, "99999");
   expect_refused({"replay", "/nowhere/at/all"}, 3, "the file does not exist");

@@ -78,7 +78,7 @@ TEST(ReadPictures, RefusesAFrameAfterTheEnd) {
   const auto pictures = read_pictures(scratch / "a.mp4", frames, {}, "walk/a.mp4");
   ASSERT_FALSE(pictures);
   EXPECT_EQ(pictures.error().message(),
-            "walk/a.mp4: there is no frame 5, it has 5, counted from 0. Next: ask for an "
+            "walk/a.mp4: there is no frame 5, it has 5, counted from 0. Next: choose an "
             "earlier frame.");
 }
 

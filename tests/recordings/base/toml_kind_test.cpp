@@ -44,7 +44,7 @@ std::string session_refusal(const std::string& text) {
   EXPECT_TRUE(write_file(path, text));
   const auto session = read_session(path);
   if (session) return "no refusal";
-  EXPECT_EQ(session.error().where, path.string());
+  EXPECT_TRUE(session.error().where.starts_with(path.string()));
   return session.error().cause;
 }
 

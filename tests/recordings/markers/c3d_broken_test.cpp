@@ -162,7 +162,8 @@ TEST(C3dBroken, AFileThatEndsAnywhereIsReadOrRefused) {
     for (std::size_t size = 0; size <= whole.size(); ++size) {
       auto reader = C3dReader::of_bytes(whole.substr(0, size), "walk.c3d");
       if (!reader) {
-        EXPECT_NE(reader.error().message().find("byte"), std::string::npos);
+        const char* part = size == 0 ? "the file is empty" : "byte";
+        EXPECT_NE(reader.error().message().find(part), std::string::npos) << size;
         continue;
       }
       ++read;
