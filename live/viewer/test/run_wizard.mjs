@@ -19,6 +19,8 @@ if (why) {
   process.exit(0);
 }
 
+class StepNotReached extends Error {}
+
 /** The sample's own trials, so slow that a busy machine keeps up. */
 function makeSession(folder) {
   const session = readFileSync(`${process.env.MAREY_SAMPLE}/session.toml`, 'utf8');
@@ -66,8 +68,14 @@ async function drive(page, folder) {
   const wizard = page.locator('.section-wizard');
   const press = (name) => wizard.getByRole('button', {name, exact: true})
     .click({timeout: 60_000});
-  const title = (words) => wizard.getByRole('heading', {name: words, exact: true})
-    .waitFor({timeout: 240_000});
+  const title = async (words) => {
+    try {
+      await wizard.getByRole('heading', {name: words, exact: true}).waitFor({timeout: 100_000});
+    } catch {
+      throw new StepNotReached(`"${words}" is not reached; the page shows: ` +
+        await wizard.textContent());
+    }
+  };
   const guidance = page.locator('.guidance');
   await wizard.locator('summary').click();
   assert.ok(!await guidance.isVisible());
@@ -86,7 +94,7 @@ async function drive(page, folder) {
   await press('Start');
   await title('Move every joint');
   await wizard.getByText('cam0: ').waitFor();
-  await page.waitForTimeout(5000);
+  await page.waitForTimeout(20_000);  // Of less movement, left and right can be ambiguous.
   assert.deepEqual((await wizard.locator('figcaption').allTextContents()).map((words) =>
     words.replace(/\d+ %, \d\.\d\d/, '')), ['cam0:  px', 'cam1:  px', 'cam2:  px', 'cam3:  px']);
   const painted = await wizard.locator('canvas').evaluateAll((grids) => grids.map((grid) =>
@@ -130,19 +138,32 @@ async function goOn(page, press) {
   }
 }
 
-const folder = mkdtempSync(`${tmpdir()}/marey-wizard-`);
-makeSession(folder);
-const marey = startMarey(folder);
-const browser = await openBrowser();
+/** Runs the program and the page once, from a new session. */
+async function measureOnce() {
+  const folder = mkdtempSync(`${tmpdir()}/marey-wizard-`);
+  makeSession(folder);
+  const marey = startMarey(folder);
+  const browser = await openBrowser();
+  try {
+    const {page, troubles} = await openPage(browser, await marey.address);
+    await drive(page, folder);
+    assert.deepEqual(troubles, []);
+    marey.stop();
+    const {code, said} = await marey.ended;
+    assert.equal(code, 0, said);
+  } finally {
+    marey.stop();
+    await browser.close();
+    rmSync(folder, {recursive: true, force: true});
+  }
+}
+
+// A run in real time loses pictures on a busy machine, and a fit of too few is refused. The
+// second run must reach every step; a wrong result fails at once.
 try {
-  const {page, troubles} = await openPage(browser, await marey.address);
-  await drive(page, folder);
-  assert.deepEqual(troubles, []);
-  marey.stop();
-  const {code, said} = await marey.ended;
-  assert.equal(code, 0, said);
-} finally {
-  marey.stop();
-  await browser.close();
-  rmSync(folder, {recursive: true, force: true});
+  await measureOnce();
+} catch (error) {
+  if (!(error instanceof StepNotReached)) throw error;
+  console.log(`first run: ${error.message}`);
+  await measureOnce();
 }
