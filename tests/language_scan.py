@@ -30,7 +30,7 @@ TESTS = ("tests", "benchmarks", "examples")
 KINDS = ("headers", "sources", "messages", "pages", "docs", "scripts", "tests",
          "test_messages")
 # Folders of installed packages and of built pages.
-NOT_OURS = {"node_modules", "dist"}
+NOT_OURS = {"node_modules", "dist", "dist-test"}
 
 # Each idiom: its name, and the pattern that finds it in one sentence.
 IDIOMS = {

@@ -94,7 +94,7 @@ async function drive(page, folder) {
   await press('Start');
   await title('Move every joint');
   await wizard.getByText('cam0: ').waitFor();
-  await page.waitForTimeout(20_000);  // Of less movement, left and right can be ambiguous.
+  await page.waitForTimeout(20_000);  // With less movement, left and right can be ambiguous.
   assert.deepEqual((await wizard.locator('figcaption').allTextContents()).map((words) =>
     words.replace(/\d+ %, \d\.\d\d/, '')), ['cam0:  px', 'cam1:  px', 'cam2:  px', 'cam3:  px']);
   const painted = await wizard.locator('canvas').evaluateAll((grids) => grids.map((grid) =>

@@ -45,7 +45,7 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   return files;
 }
 
-/// A folder with files that are not what their names say.
+/// A folder with files whose content differs from their extension.
 class PlainMessages : public ::testing::Test {
  protected:
   PlainMessages() {
