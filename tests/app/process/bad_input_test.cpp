@@ -160,7 +160,7 @@ TEST(BadVideo, WithoutASingleTagIsNamed) {
   EXPECT_TRUE(
       declines(session,
                session.run(),
-               {"walk-cam3.mp4: ", "no tag is seen in any", "leave this camera"}));
+               {"walk-cam3.mp4: ", "no tag is seen in its 90 frames", "leave this camera"}));
 }
 
 TEST(BadVideo, ThatIsATextFileCannotBeOpened) {
