@@ -4,7 +4,7 @@
 # Folders inside the rooms, lowest first: a file may include its own folder and those
 # before it. "." is the room's top folder. docs/architecture.md describes each folder;
 # tests/folders.cmake checks the order.
-set(core_LAYERS base . human)
+set(core_LAYERS base . human edit)
 set(capture_LAYERS v4l2 sync video tags boards search feeds)
 set(calib_LAYERS model bundle rig plan quality)
 set(reconstruct_LAYERS
