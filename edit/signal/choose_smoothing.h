@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "edit/signal/smoothing_spline.h"
+
+namespace marey::edit {
+
+/// Fewest samples for which a penalty is chosen.
+inline constexpr std::size_t kMinSmoothingSamples = 20;
+
+/// Whether a channel was smoothed.
+enum class SmoothingState {
+  kSmoothed,
+  kTooShort,  ///< Fewer than kMinSmoothingSamples; left as is.
+  kStraight   ///< Constant or a straight line, to rounding; left as is.
+};
+
+/// Rule by which the channels of a group share one penalty.
+enum class GroupRule {
+  kMedian,  ///< Median of the channels' own penalties, in their logarithms.
+  kJoint    ///< Minimum of the sum of the channels' logarithms of the GCV score.
+};
+
+struct ChooseSmoothingOptions {
+  SplineOptions spline;
+  GroupRule rule = GroupRule::kMedian;
+};
+
+/// Smoothing of one channel. Lengths are in the channel's unit.
+struct ChannelSmoothing {
+  SmoothingState state = SmoothingState::kTooShort;
+  double own_penalty = 0.0;  ///< Minimum of its own GCV score. 0 unless smoothed.
+  double noise_sigma = 0.0;  ///< Estimate at the group's penalty, for weight 1.
+  double removed_rms = 0.0;  ///< Root mean square of what was taken away.
+  double removed_max = 0.0;  ///< Largest amount taken away.
+  std::size_t removed_max_sample = 0;
+};
+
+/// Smoothing of a group of channels.
+struct GroupSmoothing {
+  std::optional<double> penalty;  ///< None if no channel of the group was smoothed.
+  double cutoff_hz = 0.0;         ///< half_power_hz() of the penalty. 0 if none.
+};
+
+/// Result of smooth_groups(): as many entries as there were channels, and groups.
+struct SmoothingReport {
+  std::vector<ChannelSmoothing> channels;
+  std::vector<GroupSmoothing> groups;
+};
+
+/// Returns the penalty with the least generalised cross-validation score (Craven & Wahba
+/// 1979) for each set of channels: the minimum of the sum over the set of ln GCV. The
+/// search runs over a fixed lattice of cut-offs, from twice the Nyquist frequency down to
+/// max_spline_penalty(): half an octave, refined to 1/16 of an octave, then a parabola.
+/// Deterministic; a channel's result does not depend on the other channels. About 25 fits
+/// per channel; at most 60 factorisations in all.
+/// Preconditions: all channels have spline.samples() finite samples and are not straight;
+/// sets are not empty and index channels. Changes the penalty of `spline`.
+[[nodiscard]] std::vector<double> best_penalties(
+    SmoothingSpline& spline,
+    std::span<const std::span<const double>> channels,
+    std::span<const std::vector<std::size_t>> sets);
+
+/// Smooths channels in place by splines, with one penalty per group: a noisy elbow must
+/// not be smoother than its wrist. Channels in no group are left as they are.
+/// Preconditions: all channels have the same number of samples, all finite; groups index
+/// channels, each channel at most once; weights empty or one per sample, each above 0;
+/// rate_hz > 0.
+[[nodiscard]] SmoothingReport smooth_groups(
+    std::span<std::vector<double>> channels,
+    std::span<const std::vector<std::size_t>> groups,
+    double rate_hz,
+    const ChooseSmoothingOptions& options = {},
+    std::span<const double> weights = {});
+
+}  // namespace marey::edit
