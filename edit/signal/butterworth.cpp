@@ -129,6 +129,9 @@ std::optional<double> winter_cutoff_hz(std::span<const double> channel, double r
     cutoffs.push_back(0.25 * rate_hz * static_cast<double>(i) / kResidualCutoffs);
     residuals.push_back(residual_rms(channel, cutoffs.back(), rate_hz, filtered));
   }
+  double size = 0.0;
+  for (const double value : channel) size = std::max(size, std::abs(value));
+  if (residuals.front() <= 1e-12 * size) return std::nullopt;  // Constant.
   // The longest straight end, at least a quarter of the curve.
   std::optional<double> noise;
   for (std::size_t first = 0; first <= kResidualCutoffs * 3 / 4 && !noise; ++first) {
