@@ -54,7 +54,7 @@ const std::vector<std::vector<std::size_t>> kGroups{
   std::exit(1);
 }
 
-Clip read_clip(const std::filesystem::path& folder, const std::string& name) {
+Clip read_truth_clip(const std::filesystem::path& folder, const std::string& name) {
   const auto file = folder / name / "truth" / "joints_120hz.csv";
   const auto text = recordings::read_file(file);
   if (!text) stop(text.error().message());
@@ -149,7 +149,7 @@ const std::vector<std::string> kFilters{"6 Hz",
                                         "Winter",
                                         "Yu",
                                         "GCV, median of the group",
-                                        "GCV, joint score",
+                                        "GCV, joint",
                                         "GCV, each channel alone",
                                         "GCV, median, quintic",
                                         "GCV, joint, quintic"};
@@ -253,7 +253,7 @@ void measure_time() {
       static_cast<void>(edit::smooth_groups(smoothed, groups, kRate_hz, {{order}, rule}));
       std::printf("75 channels of 7200 frames, order %d, %s: %.3f s\n",
                   order,
-                  rule == edit::GroupRule::kMedian ? "median" : "joint score",
+                  rule == edit::GroupRule::kMedian ? "median" : "joint",
                   watch.seconds());
     }
   }
@@ -265,10 +265,10 @@ int run(int argc, char** argv) {
   const unsigned seeds = argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 20;
   std::vector<Clip> clips;
   for (const char* name : {"walk", "jump", "reach", "rom"}) {
-    clips.push_back(read_clip(folder / "dev", name));
+    clips.push_back(read_truth_clip(folder / "dev", name));
   }
   for (const char* name : {"walk", "rom"}) {
-    clips.push_back(read_clip(folder / "second", name));
+    clips.push_back(read_truth_clip(folder / "second", name));
     clips.back().name = "second " + clips.back().name;
   }
   clips.push_back(made_clip("made, slow", 0.7, 11));

@@ -39,6 +39,7 @@ class LatticeScores {
         size_(lattice_size(spline.options())),
         scores_(channels.size() * static_cast<std::size_t>(size_)),
         known_(scores_.size(), false),
+        minima_(channels.size(), std::numeric_limits<double>::infinity()),
         batch_(channels.size()),
         batch_scores_(channels.size()) {}
 
@@ -62,15 +63,22 @@ class LatticeScores {
       const double gcv =
           std::max(batch_scores_[i].gcv, std::numeric_limits<double>::min());
       scores_[index(wanted_[i], point)] = std::log(gcv);
+      minima_[wanted_[i]] = std::min(minima_[wanted_[i]], std::log(gcv));
     }
   }
 
-  /// Returns the sum over the set. Precondition: its scores at the point are computed.
-  [[nodiscard]] double sum(int point, std::span<const std::size_t> set) const {
+  /// Returns ln GCV of a channel. Precondition: computed.
+  [[nodiscard]] double at(std::size_t channel, int point) const {
+    MAREY_ASSERT(known_[index(channel, point)]);
+    return scores_[index(channel, point)];
+  }
+
+  /// Returns the sum of 1 - V_min / V over the channels, V_min the least score so far.
+  /// Precondition: their scores at the point are computed.
+  [[nodiscard]] double loss(std::span<const std::size_t> channels, int point) const {
     double sum = 0.0;
-    for (const std::size_t channel : set) {
-      MAREY_ASSERT(known_[index(channel, point)]);
-      sum += scores_[index(channel, point)];
+    for (const std::size_t channel : channels) {
+      sum -= std::expm1(minima_[channel] - at(channel, point));
     }
     return sum;
   }
@@ -85,12 +93,15 @@ class LatticeScores {
   int size_;
   std::vector<double> scores_;
   std::vector<bool> known_;
+  std::vector<double> minima_;  // Least score of each channel so far.
   std::vector<std::size_t> wanted_;
   std::vector<std::span<const double>> batch_;
   std::vector<SplineFit> batch_scores_;
 };
 
-/// Search of all sets at once, so that one factorisation serves all sets that need it.
+/// Search for all sets at once, so that one factorisation serves all sets that need it. A
+/// set of one channel minimises ln GCV, a larger one the joint loss, for which the minima
+/// of its channels must be known.
 class LatticeSearch {
  public:
   LatticeSearch(LatticeScores& scores, std::span<const std::vector<std::size_t>> sets)
@@ -163,7 +174,9 @@ class LatticeSearch {
     return point >= 0 && point < scores_.size();
   }
   [[nodiscard]] double value(std::size_t set, int point) const {
-    return scores_.sum(point, sets_[set]);
+    const auto& channels = sets_[set];
+    return channels.size() == 1 ? scores_.at(channels[0], point)
+                                : scores_.loss(channels, point);
   }
 
   LatticeScores& scores_;
@@ -235,15 +248,32 @@ void smooth_channel(SmoothingSpline& spline,
 
 }  // namespace
 
-std::vector<double> best_penalties(SmoothingSpline& spline,
-                                   std::span<const std::span<const double>> channels,
-                                   std::span<const std::vector<std::size_t>> sets) {
+ChosenPenalties choose_penalties(SmoothingSpline& spline,
+                                 std::span<const std::span<const double>> channels,
+                                 std::span<const std::vector<std::size_t>> groups,
+                                 GroupRule rule) {
   LatticeScores scores(spline, channels);
-  std::vector<double> penalties = LatticeSearch(scores, sets).run();
-  for (double& penalty : penalties) {
-    penalty = std::exp(lattice_log_penalty(penalty, spline.options().order));
+  const auto search = [&](std::span<const std::vector<std::size_t>> sets) {
+    std::vector<double> penalties = LatticeSearch(scores, sets).run();
+    for (double& penalty : penalties) {
+      penalty = std::exp(lattice_log_penalty(penalty, spline.options().order));
+    }
+    return penalties;
+  };
+  std::vector<std::vector<std::size_t>> singles;
+  for (std::size_t i = 0; i < channels.size(); ++i) singles.push_back({i});
+  ChosenPenalties chosen;
+  chosen.channels = search(singles);
+  if (rule == GroupRule::kJoint) {
+    chosen.groups = search(groups);
+    return chosen;
   }
-  return penalties;
+  for (const auto& group : groups) {
+    std::vector<double> penalties;
+    for (const std::size_t i : group) penalties.push_back(chosen.channels[i]);
+    chosen.groups.push_back(median_log(std::move(penalties)));
+  }
+  return chosen;
 }
 
 SmoothingReport smooth_groups(std::span<std::vector<double>> channels,
@@ -259,13 +289,14 @@ SmoothingReport smooth_groups(std::span<std::vector<double>> channels,
 
   std::vector<std::size_t> listed;  // Channel of each entry of `samples`.
   std::vector<std::span<const double>> samples;
-  std::vector<std::vector<std::size_t>> sets;
-  std::vector<std::vector<std::size_t>> singles;
-  for (const auto& group : kept) {
+  std::vector<std::vector<std::size_t>> sets;  // Entries of `samples`.
+  std::vector<std::size_t> group_of_set;
+  for (std::size_t group = 0; group < kept.size(); ++group) {
+    if (kept[group].empty()) continue;
     sets.emplace_back();
-    for (const std::size_t channel : group) {
+    group_of_set.push_back(group);
+    for (const std::size_t channel : kept[group]) {
       sets.back().push_back(samples.size());
-      singles.push_back({samples.size()});
       listed.push_back(channel);
       samples.emplace_back(channels[channel]);
     }
@@ -273,25 +304,17 @@ SmoothingReport smooth_groups(std::span<std::vector<double>> channels,
   if (samples.empty()) return report;
 
   SmoothingSpline spline(samples.front().size(), options.spline, weights);
-  const auto own = best_penalties(spline, samples, singles);
-  for (std::size_t i = 0; i < listed.size(); ++i) {
-    report.channels[listed[i]].own_penalty = own[i];
-  }
+  const auto chosen = choose_penalties(spline, samples, sets, options.rule);
   std::vector<double> fitted(spline.samples());
-  for (std::size_t group = 0; group < sets.size(); ++group) {
-    if (sets[group].empty()) continue;
-    double penalty = 0.0;
-    if (options.rule == GroupRule::kJoint) {
-      penalty = best_penalties(spline, samples, std::span(sets).subspan(group, 1))[0];
-    } else {
-      std::vector<double> penalties;
-      for (const std::size_t i : sets[group]) penalties.push_back(own[i]);
-      penalty = median_log(std::move(penalties));
-    }
-    report.groups[group] = {penalty, half_power_hz(penalty, rate_hz, options.spline)};
+  for (std::size_t set = 0; set < sets.size(); ++set) {
+    const double penalty = chosen.groups[set];
+    report.groups[group_of_set[set]] = {penalty,
+                                        half_power_hz(penalty, rate_hz, options.spline)};
     spline.set_penalty(penalty);
-    for (const std::size_t i : sets[group]) {
-      smooth_channel(spline, channels[listed[i]], fitted, report.channels[listed[i]]);
+    for (const std::size_t i : sets[set]) {
+      ChannelSmoothing& channel = report.channels[listed[i]];
+      channel.own_penalty = chosen.channels[i];
+      smooth_channel(spline, channels[listed[i]], fitted, channel);
     }
   }
   return report;

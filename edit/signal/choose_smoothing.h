@@ -23,13 +23,16 @@ enum class SmoothingState {
 
 /// Rule by which the channels of a group share one penalty.
 enum class GroupRule {
-  kMedian,  ///< Median of the channels' own penalties, in their logarithms.
-  kJoint    ///< Minimum of the sum of the channels' logarithms of the GCV score.
+  /// Minimum over the penalty of the sum of 1 - V_min / V over the channels, where V is a
+  /// channel's GCV score and V_min its minimum. No channel's share exceeds 1, so one
+  /// channel without noise does not decide for the others.
+  kJoint,
+  kMedian  ///< Median of the channels' own penalties, in their logarithms.
 };
 
 struct ChooseSmoothingOptions {
   SplineOptions spline;
-  GroupRule rule = GroupRule::kMedian;
+  GroupRule rule = GroupRule::kJoint;
 };
 
 /// Smoothing of one channel. Lengths are in the channel's unit.
@@ -54,18 +57,25 @@ struct SmoothingReport {
   std::vector<GroupSmoothing> groups;
 };
 
+/// Penalties found by choose_penalties().
+struct ChosenPenalties {
+  std::vector<double> channels;  ///< Each channel's own.
+  std::vector<double> groups;    ///< Each group's.
+};
+
 /// Returns the penalty with the least generalised cross-validation score (Craven & Wahba
-/// 1979) for each set of channels: the minimum of the sum over the set of ln GCV. The
-/// search runs over a fixed lattice of cut-offs, from twice the Nyquist frequency down to
-/// max_spline_penalty(): half an octave, refined to 1/16 of an octave, then a parabola.
-/// Deterministic; a channel's result does not depend on the other channels. About 25 fits
-/// per channel; at most 60 factorisations in all.
+/// 1979) of each channel, and the shared penalty of each group. The search runs over a
+/// fixed lattice of cut-offs, from twice the Nyquist frequency down to that of
+/// max_spline_penalty(): steps of half an octave, refined to 1/16 of an octave, then a
+/// parabola. Deterministic; a channel's own penalty does not depend on the other
+/// channels. About 25 fits per channel, and fewer than 200 factorisations in all.
 /// Preconditions: all channels have spline.samples() finite samples and are not straight;
-/// sets are not empty and index channels. Changes the penalty of `spline`.
-[[nodiscard]] std::vector<double> best_penalties(
+/// groups are not empty and index channels. Changes the penalty of `spline`.
+[[nodiscard]] ChosenPenalties choose_penalties(
     SmoothingSpline& spline,
     std::span<const std::span<const double>> channels,
-    std::span<const std::vector<std::size_t>> sets);
+    std::span<const std::vector<std::size_t>> groups,
+    GroupRule rule = GroupRule::kJoint);
 
 /// Smooths channels in place by splines, with one penalty per group: a noisy elbow must
 /// not be smoother than its wrist. Channels in no group are left as they are.

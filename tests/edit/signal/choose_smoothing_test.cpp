@@ -18,10 +18,8 @@ constexpr double kRate_hz = 120.0;
 std::vector<double> own_penalties(const std::vector<std::vector<double>>& channels,
                                   SplineOptions options) {
   const std::vector<std::span<const double>> views(channels.begin(), channels.end());
-  std::vector<std::vector<std::size_t>> singles;
-  for (std::size_t i = 0; i < channels.size(); ++i) singles.push_back({i});
   SmoothingSpline spline(channels.front().size(), options);
-  return best_penalties(spline, views, singles);
+  return choose_penalties(spline, views, {}).channels;
 }
 
 class ChooseSmoothingOfOrder : public ::testing::TestWithParam<int> {};
@@ -94,7 +92,7 @@ TEST(ChooseSmoothing, PenaltyDoesNotDependOnUnitOffsetOrOtherChannels) {
   EXPECT_NEAR(together[1] / alone, 1.0, 1e-6);
 }
 
-TEST(ChooseSmoothing, AGroupHasOnePenaltyTheMedianOfItsChannels) {
+TEST(ChooseSmoothing, MedianOfAGroupIsThatOfItsChannelsPenalties) {
   constexpr std::size_t kSamples = 600;
   std::vector<std::vector<double>> channels;
   for (unsigned i = 0; i < 5; ++i) {
@@ -103,7 +101,7 @@ TEST(ChooseSmoothing, AGroupHasOnePenaltyTheMedianOfItsChannels) {
   }
   auto smoothed = channels;
   const std::vector<std::vector<std::size_t>> groups{{0, 1, 2}, {4}};
-  const auto report = smooth_groups(smoothed, groups, kRate_hz);
+  const auto report = smooth_groups(smoothed, groups, kRate_hz, {{}, GroupRule::kMedian});
   std::vector<double> own;
   for (const std::size_t i : groups[0]) own.push_back(report.channels[i].own_penalty);
   std::sort(own.begin(), own.end());
@@ -122,6 +120,41 @@ TEST(ChooseSmoothing, AGroupHasOnePenaltyTheMedianOfItsChannels) {
               1e-15);
   const std::size_t at = report.channels[1].removed_max_sample;
   EXPECT_EQ(std::abs(channels[1][at] - smoothed[1][at]), report.channels[1].removed_max);
+}
+
+TEST(ChooseSmoothing, JointPenaltyOfAGroupSparesItsFastestChannel) {
+  // Two slow channels and a fast one: the median smooths the fast one too much.
+  constexpr std::size_t kSamples = 1200;
+  const std::vector<std::vector<double>> truth{
+      testing::band_limited(kSamples, kRate_hz, 2.0, 1),
+      testing::band_limited(kSamples, kRate_hz, 2.0, 2),
+      testing::band_limited(kSamples, kRate_hz, 14.0, 3)};
+  auto joint = truth;
+  for (unsigned i = 0; i < 3; ++i) joint[i] = testing::with_noise(truth[i], 0.001, i);
+  auto by_median = joint;
+  const std::vector<std::vector<std::size_t>> groups{{0, 1, 2}};
+  const auto report = smooth_groups(joint, groups, kRate_hz);
+  static_cast<void>(smooth_groups(by_median, groups, kRate_hz, {{}, GroupRule::kMedian}));
+  EXPECT_LT(testing::rms_difference(joint[2], truth[2]), 0.001);
+  EXPECT_GT(testing::rms_difference(by_median[2], truth[2]), 0.002);
+  EXPECT_LT(*report.groups[0].penalty, report.channels[0].own_penalty);
+}
+
+TEST(ChooseSmoothing, AChannelWithoutNoiseDoesNotPreventSmoothingTheOthers) {
+  constexpr std::size_t kSamples = 1200;
+  const std::vector<std::vector<double>> truth{
+      testing::band_limited(kSamples, kRate_hz, 4.0, 1),
+      testing::band_limited(kSamples, kRate_hz, 4.0, 2),
+      testing::band_limited(kSamples, kRate_hz, 4.0, 3)};
+  auto channels = truth;
+  for (unsigned i = 0; i < 2; ++i) {
+    channels[i] = testing::with_noise(truth[i], 0.003, i);
+  }
+  const std::vector<std::vector<std::size_t>> groups{{0, 1, 2}};
+  static_cast<void>(smooth_groups(channels, groups, kRate_hz));
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_LT(testing::rms_difference(channels[i], truth[i]), 0.0012);
+  }
 }
 
 TEST(ChooseSmoothing, ShortAndStraightChannelsAreReportedAndLeftAsTheyAre) {
