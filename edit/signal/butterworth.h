@@ -24,11 +24,11 @@ void filter_butterworth(std::span<double> channel, double cutoff_hz, double rate
 [[nodiscard]] double yu_cutoff_hz(double rate_hz);
 
 /// Returns the cut-off [Hz] of a channel by residual analysis (Winter 2009, section
-/// 2.2.4.5). The root mean square of what the filter takes away is computed for cut-offs
-/// up to a quarter of the rate. The straight end of that curve is taken to be noise; the
-/// cut-off is where the curve crosses the value of this line at 0 Hz. None if the channel
-/// has fewer than 20 samples, is constant, or has no straight end. About 60 filter
-/// passes.
+/// 2.2.4.5). The root mean square of the part that the filter removes is computed for
+/// cut-offs up to a quarter of the rate. The straight end of that curve is taken to be
+/// noise; the cut-off is where the curve crosses the value of this line at 0 Hz. None if
+/// the channel has fewer than 20 samples, is constant, or has no straight end. About 60
+/// filter passes.
 [[nodiscard]] std::optional<double> winter_cutoff_hz(std::span<const double> channel,
                                                      double rate_hz);
 

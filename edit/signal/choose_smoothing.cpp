@@ -185,7 +185,8 @@ class LatticeSearch {
   std::vector<int> best_;
 };
 
-/// Whether the channel is the line through its first and last sample, to rounding.
+/// Returns true if the channel is the line through its first and last sample, to
+/// rounding.
 bool is_straight_channel(std::span<const double> channel) {
   const double first = channel.front();
   const double slope = (channel.back() - first) / static_cast<double>(channel.size() - 1);
@@ -270,6 +271,7 @@ ChosenPenalties choose_penalties(SmoothingSpline& spline,
   }
   for (const auto& group : groups) {
     std::vector<double> penalties;
+    penalties.reserve(group.size());
     for (const std::size_t i : group) penalties.push_back(chosen.channels[i]);
     chosen.groups.push_back(median_log(std::move(penalties)));
   }

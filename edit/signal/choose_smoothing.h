@@ -14,7 +14,7 @@ namespace marey::edit {
 /// Fewest samples for which a penalty is chosen.
 inline constexpr std::size_t kMinSmoothingSamples = 20;
 
-/// Whether a channel was smoothed.
+/// Outcome for a channel.
 enum class SmoothingState {
   kSmoothed,
   kTooShort,  ///< Fewer than kMinSmoothingSamples; left as is.
@@ -40,8 +40,8 @@ struct ChannelSmoothing {
   SmoothingState state = SmoothingState::kTooShort;
   double own_penalty = 0.0;  ///< Minimum of its own GCV score. 0 unless smoothed.
   double noise_sigma = 0.0;  ///< Estimate at the group's penalty, for weight 1.
-  double removed_rms = 0.0;  ///< Root mean square of what was taken away.
-  double removed_max = 0.0;  ///< Largest amount taken away.
+  double removed_rms = 0.0;  ///< Root mean square of the removed part.
+  double removed_max = 0.0;  ///< Largest amount removed.
   std::size_t removed_max_sample = 0;
 };
 

@@ -39,11 +39,11 @@ constexpr std::array<double, Order + 1> spline_gram() {
 template <int Order>
 std::array<double, Order + 1> spline_penalty_row(const double* inverse_weights,
                                                  std::size_t k) {
-  constexpr auto s = spline_differences<Order>();
+  constexpr auto kDifferences = spline_differences<Order>();
   std::array<double, Order + 1> row{};
   for (std::size_t p = 0; p <= Order; ++p) {
     for (std::size_t j = p; j <= Order; ++j) {
-      row[p] += s[j] * s[j - p] * inverse_weights[k + j];
+      row[p] += kDifferences[j] * kDifferences[j - p] * inverse_weights[k + j];
     }
   }
   return row;
@@ -95,7 +95,7 @@ void SmoothingSpline::set_penalty(double penalty) {
 /// L D L' of the banded matrix. `scaled` holds the last rows of L D.
 template <int Order>
 void SmoothingSpline::factorise() {
-  constexpr auto gram = spline_gram<Order>();
+  constexpr auto kGram = spline_gram<Order>();
   // Entries (i, i - q) of the matrix come from row i - q, so the rows ahead are kept.
   std::array<std::array<double, Order + 1>, Order + 1> ahead{};
   std::array<double, Order + 1> d{};  // d[q]: D of row i - q.
@@ -106,7 +106,7 @@ void SmoothingSpline::factorise() {
     }
     ahead[0] = spline_penalty_row<Order>(inverse_weights_.data(), i);
     for (std::size_t p = 0; p <= Order; ++p) {
-      ahead[0][p] = gram[p] + penalty_ * ahead[0][p];
+      ahead[0][p] = kGram[p] + penalty_ * ahead[0][p];
     }
     Row& row = rows_[i];
     row = {};
@@ -129,7 +129,7 @@ void SmoothingSpline::factorise() {
 /// penalty * tr(M^-1 D W^-1 D') for small penalties, n - m - tr(M^-1 R) for large ones.
 template <int Order>
 void SmoothingSpline::compute_residual_freedom() {
-  constexpr auto gram = spline_gram<Order>();
+  constexpr auto kGram = spline_gram<Order>();
   using Band = std::array<double, Order + 1>;
   std::array<Band, Order + 1> inverse{};  // inverse[k][p]: entry (i + k, i + k + p).
   double smooth = 0.0;
@@ -152,10 +152,10 @@ void SmoothingSpline::compute_residual_freedom() {
     inverse[0][0] = diagonal;
 
     const Band row = spline_penalty_row<Order>(inverse_weights_.data(), i);
-    smooth += diagonal * gram[0];
+    smooth += diagonal * kGram[0];
     rough += diagonal * row[0];
     for (std::size_t p = 1; p <= Order && i + p < rows_.size(); ++p) {
-      smooth += 2.0 * inverse[0][p] * gram[p];
+      smooth += 2.0 * inverse[0][p] * kGram[p];
       rough += 2.0 * inverse[0][p] * row[p];
     }
   }
@@ -165,7 +165,7 @@ void SmoothingSpline::compute_residual_freedom() {
 
 template <int Order, std::size_t Lanes>
 void SmoothingSpline::solve(const std::array<const double*, Lanes>& channels) {
-  constexpr auto s = spline_differences<Order>();
+  constexpr auto kDifferences = spline_differences<Order>();
   const std::size_t rows = rows_.size();
   double* const c = work_.data() + Order * Lanes;
   std::fill(work_.data(), c, 0.0);
@@ -175,7 +175,8 @@ void SmoothingSpline::solve(const std::array<const double*, Lanes>& channels) {
     double* const now = c + i * Lanes;
     for (std::size_t lane = 0; lane < Lanes; ++lane) {
       double value = 0.0;
-      for (std::size_t j = 0; j <= Order; ++j) value += s[j] * channels[lane][i + j];
+      for (std::size_t j = 0; j <= Order; ++j)
+        value += kDifferences[j] * channels[lane][i + j];
       for (std::size_t q = Order; q > 0; --q) value -= row[q] * (now - q * Lanes)[lane];
       now[lane] = value;
     }
@@ -195,23 +196,24 @@ void SmoothingSpline::solve(const std::array<const double*, Lanes>& channels) {
 template <int Order>
 void SmoothingSpline::subtract_residuals(std::span<const double> channel,
                                          std::span<double> fitted) {
-  constexpr auto s = spline_differences<Order>();
+  constexpr auto kDifferences = spline_differences<Order>();
   for (std::size_t i = 0; i < channel.size(); ++i) {
     double sum = 0.0;  // (D' c)_i; work_[i + Order - j] is c_(i - j).
-    for (std::size_t j = 0; j <= Order; ++j) sum += s[j] * work_[i + Order - j];
+    for (std::size_t j = 0; j <= Order; ++j)
+      sum += kDifferences[j] * work_[i + Order - j];
     fitted[i] = channel[i] - penalty_ * inverse_weights_[i] * sum;
   }
 }
 
 template <int Order, std::size_t Lanes>
 std::array<double, Lanes> SmoothingSpline::residual_squares() const {
-  constexpr auto s = spline_differences<Order>();
+  constexpr auto kDifferences = spline_differences<Order>();
   std::array<double, Lanes> squares{};
   for (std::size_t i = 0; i < samples(); ++i) {
     for (std::size_t lane = 0; lane < Lanes; ++lane) {
       double sum = 0.0;
       for (std::size_t j = 0; j <= Order; ++j) {
-        sum += s[j] * work_[(i + Order - j) * Lanes + lane];
+        sum += kDifferences[j] * work_[(i + Order - j) * Lanes + lane];
       }
       squares[lane] += sum * sum * inverse_weights_[i];
     }

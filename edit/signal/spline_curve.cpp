@@ -88,7 +88,7 @@ SplineCurve::SplineCurve(SmoothingSpline& spline,
   MAREY_ASSERT(rate_hz > 0.0);
   std::vector<double> fitted(channel.size());
   static_cast<void>(spline.fit(channel, fitted));
-  coefficients_.resize(channel.size() + 2 * static_cast<std::size_t>(order_ - 1));
+  coefficients_.resize(channel.size() + 2 * (static_cast<std::size_t>(order_) - 1));
   if (order_ == 2) {
     cubic_curve(fitted, spline.top_derivative(), coefficients_);
   } else {
@@ -100,7 +100,7 @@ double SplineCurve::at(double time_s, int derivative) const {
   MAREY_ASSERT(derivative >= 0 && derivative < 2 * order_);
   MAREY_ASSERT(time_s >= -1e-9 && time_s <= end_s_ + 1e-9);
   const double x = time_s * rate_hz_;
-  const auto support = static_cast<std::size_t>(2 * order_);
+  const auto support = 2 * static_cast<std::size_t>(order_);
   const auto last = static_cast<double>(coefficients_.size() - support);
   const double interval = std::clamp(std::floor(x), 0.0, last);
   // The splines centred from interval - (m - 1) to interval + m.

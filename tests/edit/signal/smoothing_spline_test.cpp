@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/edit/signal/synthetic_channel.h"
+#include "tests/support/program/count_allocations.h"
 
 namespace marey::edit {
 namespace {
@@ -229,6 +230,21 @@ TEST_P(SmoothingSplineOfOrder, ScoresOfABatchEqualThoseOfSingleFitsToTheBit) {
     EXPECT_EQ(fit.gcv, scores[k].gcv);
     EXPECT_EQ(fit.residual_squares, scores[k].residual_squares);
   }
+}
+
+TEST_P(SmoothingSplineOfOrder, FitsAndScoresAllocateNothing) {
+  constexpr std::size_t kSamples = 301;
+  const auto channel =
+      testing::with_noise(testing::band_limited(kSamples, 120.0, 6.0, 1), 0.002, 1);
+  const std::vector<std::span<const double>> views(6, channel);
+  std::vector<double> fitted(kSamples);
+  std::vector<SplineFit> scores(views.size());
+  SmoothingSpline spline(kSamples, {GetParam()});
+  const long before = marey::testing::allocations();
+  spline.set_penalty(30.0);
+  static_cast<void>(spline.fit(channel, fitted));
+  spline.score(views, scores);
+  EXPECT_EQ(marey::testing::allocations(), before);
 }
 
 }  // namespace
