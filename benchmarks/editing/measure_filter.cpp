@@ -191,18 +191,33 @@ std::vector<std::vector<double>> filter_errors(const Channels& noisy,
   return errors;
 }
 
-void measure(const Clip& clip, double sigma_m, unsigned seeds) {
+/// Noise: its sigma, and the correlation of consecutive samples (first-order process).
+struct Noise {
+  double sigma_m = 0.0;
+  double correlation = 0.0;
+};
+
+Channels with_noise(Channels channels, const Noise& noise, unsigned seed) {
+  std::mt19937 random(7919 * seed + 1);
+  std::normal_distribution<double> unit(0.0, 1.0);
+  const double fresh = std::sqrt(1.0 - noise.correlation * noise.correlation);
+  for (auto& channel : channels) {
+    double state = unit(random);
+    for (double& value : channel) {
+      value += noise.sigma_m * state;
+      state = noise.correlation * state + fresh * unit(random);
+    }
+  }
+  return channels;
+}
+
+void measure(const Clip& clip, const Noise& noise, unsigned seeds) {
   const std::vector<std::string> names = filter_names();
   std::vector<Ratios> ratios(names.size());
   std::vector<double> cutoffs;
   std::vector<double> oracle_errors;
   for (unsigned seed = 0; seed < seeds; ++seed) {
-    std::mt19937 random(7919 * seed + 1);
-    std::normal_distribution<double> noise(0.0, sigma_m);
-    Channels noisy = clip.truth_m;
-    for (auto& channel : noisy) {
-      for (double& value : channel) value += noise(random);
-    }
+    const Channels noisy = with_noise(clip.truth_m, noise, seed);
     const auto errors = filter_errors(noisy, clip.truth_m);
     for (std::size_t k = 0; k < noisy.size(); ++k) {
       const Oracle oracle = best_butterworth(noisy[k], clip.truth_m[k]);
@@ -216,9 +231,10 @@ void measure(const Clip& clip, double sigma_m, unsigned seeds) {
   char title[160];
   std::snprintf(title,
                 sizeof title,
-                "%s, %.0f mm: oracle's median cut-off %.1f Hz, median error %.2f mm",
+                "%s, %.0f mm%s: oracle's median cut-off %.1f Hz, median error %.2f mm",
                 clip.name.c_str(),
-                1000.0 * sigma_m,
+                1000.0 * noise.sigma_m,
+                noise.correlation > 0.0 ? ", correlation 0.5" : "",
                 median(cutoffs),
                 1000.0 * median(oracle_errors));
   ResultTable table{clip.name,
@@ -278,7 +294,10 @@ int run(int argc, char** argv) {
   clips.push_back(made_clip("made, slow", 0.7, 11));
   clips.push_back(made_clip("made, fast", 2.0, 12));
   for (const Clip& clip : clips) {
-    for (const double sigma_m : {0.001, 0.003}) measure(clip, sigma_m, seeds);
+    for (const Noise& noise :
+         {Noise{0.001, 0.0}, Noise{0.003, 0.0}, Noise{0.001, 0.5}, Noise{0.003, 0.5}}) {
+      measure(clip, noise, seeds);
+    }
   }
   measure_time(75, 7200);
   measure_time(200, 36000);

@@ -52,7 +52,7 @@ std::array<double, Order + 1> spline_penalty_row(const double* inverse_weights,
 }  // namespace
 
 double max_spline_penalty(SplineOptions options) {
-  return options.order == 2 ? 1e10 : 1e9;
+  return options.order == 2 ? 1e9 : 1e10;
 }
 
 double half_power_hz(double penalty, double rate_hz, SplineOptions options) {
