@@ -13,6 +13,7 @@
 
 #include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
+#include "recordings/base/word_text.h"
 #include "recordings/edit/edit_key_list.h"
 #include "recordings/edit/edit_key_reader.h"
 #include "recordings/edit/edit_limits.h"
@@ -21,15 +22,12 @@
 namespace marey::recordings::recipe {
 namespace {
 
-/// All operations have this version only. A changed algorithm gets the next one, and
-/// both are kept.
-constexpr int kOnlyVersion = 1;
-
+/// Returns "cut@1" for "cut".
 std::string versioned(std::string_view op_name) {
-  return std::string(op_name).append("@1");
+  return with_number(std::string(op_name).append("@"), kEditOpVersion);
 }
 
-/// Stores that there is no operation `word`, which contains its version.
+/// Stores that there is no operation with this name.
 void fail_unknown_op(TomlReader& in, std::string_view op_name) {
   std::vector<std::string> words;
   for (const std::string_view known : edit_op_names()) words.push_back(versioned(known));
@@ -69,9 +67,10 @@ bool read_do(TomlReader& in, EditOp& op) {
   const std::optional<int> version = version_of(std::string_view(word).substr(at + 1));
   if (!version) {
     in.fail("do", in_quotes(word) + " has no valid version", next);
-  } else if (*version != kOnlyVersion) {
+  } else if (*version != kEditOpVersion) {
     in.fail("do",
-            "this marey has no " + in_quotes(word) + ": it has version 1 of " + op_name,
+            "this marey has no " + in_quotes(word) + ", only " +
+                in_quotes(versioned(op_name)),
             "update marey, or " + next);
   } else {
     op.version = *version;
