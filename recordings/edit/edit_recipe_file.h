@@ -38,7 +38,7 @@ namespace marey::recordings {
 /// Returns the canonical text of a recipe: the same recipe gives the same bytes, keys
 /// with default values are left out, and the text of the recipe that is parsed from it is
 /// the same. Numbers are read back exactly, except angles for which no number of degrees
-/// does (1e-14 of the angle), and the scale of quaternions. Lines of errors and
+/// does (1e-13 of the angle), and the scale of quaternions. Lines of errors and
 /// Constraint::unknown_xml are not part of the text.
 /// Preconditions: numbers are finite, texts UTF-8, rotations not zero.
 [[nodiscard]] std::string edit_recipe_text(const EditRecipe& recipe);

@@ -164,6 +164,8 @@ void fill(RecipeDice& dice, CyclifyOp& op) {
   const std::vector<Moment> ends = dice.instants(2);
   if (dice.chance()) op.from = ends.front();
   if (ends.size() > 1) op.to = ends.back();
+  if (dice.below(4) == 0) op.from = AtAnnotation{dice.word(), dice.below(3)};
+  if (dice.below(4) == 0) op.to = AtAnnotation{dice.word(), dice.below(3)};
   op.drift = static_cast<CycleDrift>(dice.below(3));
   op.cycles = 1 + dice.below(9);
   op.force = dice.chance();
