@@ -115,6 +115,7 @@ void raise(std::vector<NormalizedPose>& poses, double height_m) {
 
 void settle(const PlantFrames& before,
             std::array<std::vector<FootPlace>, 2> feet,
+            const retarget::GroundOptions& ground,
             EditState& state,
             PlantReport& report) {
   std::vector<NormalizedPose> settled = before.poses;
@@ -125,7 +126,7 @@ void settle(const PlantFrames& before,
                                                        state.motion.rate,
                                                        settled,
                                                        feet,
-                                                       {})
+                                                       ground)
                                   .unreachable_frames;
   take_legs(settled, before, feet, state);
 }
@@ -147,13 +148,14 @@ PlantReport plant_feet(EditState& state) {
   for (auto& path : feet) {
     for (FootPlace& place : path) place.ankle_in_world.y -= rise_m;
   }
-  settle(before, std::move(feet), state, report);
+  settle(before, std::move(feet), {}, state, report);
   report.slide_after_mm = measure_slide(state).worst_drift_mm;
   return report;
 }
 
 PlantReport set_feet(EditState& state,
-                     const std::array<std::vector<std::optional<FootPlace>>, 2>& feet) {
+                     const std::array<std::vector<std::optional<FootPlace>>, 2>& feet,
+                     const retarget::GroundOptions& ground) {
   PlantReport report;
   report.slide_before_mm = measure_slide(state).worst_drift_mm;
   const PlantFrames before = plant_frames(state);
@@ -164,7 +166,7 @@ PlantReport set_feet(EditState& state,
       if (feet[side][t]) planned[side][t] = *feet[side][t];
     }
   }
-  settle(before, std::move(planned), state, report);
+  settle(before, std::move(planned), ground, state, report);
   report.slide_after_mm = measure_slide(state).worst_drift_mm;
   return report;
 }
