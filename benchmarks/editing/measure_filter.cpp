@@ -1,18 +1,19 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Measures the error of low-pass filters on true joint places with white noise.
+// Measures the error of low-pass filters on true joint places with noise.
 //
 //   measure_filter ../shared/data/blender [seeds, default 20]
 //
 // Reads truth/joints_120hz.csv of the rendered recordings and uses 12 channels of each:
-// hip, wrist, ankle and toe of the left side, x, y and z. Adds noise of 1 and 3 mm.
-// Divides the root mean square error of each filter by that of the best Butterworth
-// cut-off, which knows the truth of each channel. Prints per recording and noise: the
-// oracle's median cut-off and error; for each filter the mean of the ratio over channels
-// and seeds, the largest mean over seeds of a channel, and the largest ratio of all. Then
-// prints the time to choose the penalties of 75 channels of 1 minute and of 200 channels
-// of 5 minutes, and to smooth them.
+// hip, wrist, ankle and toe of the left side, x, y and z. Adds noise of 1 and 3 mm, white
+// and with a correlation of 0.5 between consecutive frames. Divides the root mean square
+// error of each filter by that of the best Butterworth cut-off, which knows the truth of
+// each channel. Prints per recording and noise: the oracle's median cut-off and error;
+// for each filter the mean of the ratio over channels and seeds, the largest mean over
+// seeds of a channel, and the largest ratio of all. Then prints the time to choose the
+// penalties of 75 channels of 1 minute and of 200 channels of 5 minutes, and to smooth
+// them.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -32,38 +32,27 @@ int lattice_size(SplineOptions options) {
 /// ln GCV of channels at lattice points, computed at first use.
 class LatticeScores {
  public:
-  LatticeScores(SmoothingSpline& spline,
-                std::span<const std::span<const double>> channels)
-      : spline_(spline),
-        channels_(channels),
-        size_(lattice_size(spline.options())),
-        scores_(channels.size() * static_cast<std::size_t>(size_)),
+  explicit LatticeScores(SmoothingChannels& channels)
+      : channels_(channels),
+        options_(channels.splines.front().options()),
+        size_(lattice_size(options_)),
+        scores_(channels.samples.size() * static_cast<std::size_t>(size_)),
         known_(scores_.size(), false),
-        minima_(channels.size(), std::numeric_limits<double>::infinity()),
-        batch_(channels.size()),
-        batch_scores_(channels.size()) {}
+        minima_(channels.samples.size(), std::numeric_limits<double>::infinity()) {}
 
   [[nodiscard]] int size() const { return size_; }
 
   /// Computes the scores of the listed channels at one point, unless known.
   void compute(int point, std::span<const std::size_t> channels) {
-    wanted_.clear();
-    for (const std::size_t channel : channels) {
-      const std::size_t at = index(channel, point);
-      if (known_[at]) continue;
-      known_[at] = true;
-      batch_[wanted_.size()] = channels_[channel];
-      wanted_.push_back(channel);
-    }
-    if (wanted_.empty()) return;
-    spline_.set_penalty(std::exp(lattice_log_penalty(point, spline_.options().order)));
-    const std::size_t count = wanted_.size();
-    spline_.score(std::span(batch_).first(count), std::span(batch_scores_).first(count));
-    for (std::size_t i = 0; i < count; ++i) {
-      const double gcv =
-          std::max(batch_scores_[i].gcv, std::numeric_limits<double>::min());
-      scores_[index(wanted_[i], point)] = std::log(gcv);
-      minima_[wanted_[i]] = std::min(minima_[wanted_[i]], std::log(gcv));
+    for (std::size_t spline = 0; spline < channels_.splines.size(); ++spline) {
+      wanted_.clear();
+      for (const std::size_t channel : channels) {
+        const std::size_t at = index(channel, point);
+        if (known_[at] || channels_.spline_of[channel] != spline) continue;
+        known_[at] = true;
+        wanted_.push_back(channel);
+      }
+      if (!wanted_.empty()) score_wanted(point, channels_.splines[spline]);
     }
   }
 
@@ -84,12 +73,28 @@ class LatticeScores {
   }
 
  private:
+  void score_wanted(int point, SmoothingSpline& spline) {
+    spline.set_penalty(std::exp(lattice_log_penalty(point, options_.order)));
+    batch_.clear();
+    for (const std::size_t channel : wanted_) {
+      batch_.push_back(channels_.samples[channel]);
+    }
+    batch_scores_.resize(batch_.size());
+    spline.score(batch_, batch_scores_);
+    for (std::size_t i = 0; i < wanted_.size(); ++i) {
+      const double gcv =
+          std::max(batch_scores_[i].gcv, std::numeric_limits<double>::min());
+      scores_[index(wanted_[i], point)] = std::log(gcv);
+      minima_[wanted_[i]] = std::min(minima_[wanted_[i]], std::log(gcv));
+    }
+  }
+
   [[nodiscard]] std::size_t index(std::size_t channel, int point) const {
     return channel * static_cast<std::size_t>(size_) + static_cast<std::size_t>(point);
   }
 
-  SmoothingSpline& spline_;
-  std::span<const std::span<const double>> channels_;
+  SmoothingChannels& channels_;
+  SplineOptions options_;
   int size_;
   std::vector<double> scores_;
   std::vector<bool> known_;
@@ -229,10 +234,37 @@ std::vector<std::vector<std::size_t>> smoothable_channels(
   return kept;
 }
 
+/// The listed channels; those of equal weights share a spline.
+SmoothingChannels with_shared_splines(std::span<const std::vector<double>> channels,
+                                      std::span<const std::size_t> listed,
+                                      SplineOptions options,
+                                      std::span<const std::vector<double>> weights) {
+  SmoothingChannels result;
+  std::vector<std::span<const double>> known;  // Weights of each spline.
+  for (const std::size_t channel : listed) {
+    std::span<const double> own;
+    if (!weights.empty()) own = weights[channel];
+    std::size_t spline = 0;
+    while (
+        spline < known.size() &&
+        !std::equal(own.begin(), own.end(), known[spline].begin(), known[spline].end())) {
+      ++spline;
+    }
+    if (spline == known.size()) {
+      known.push_back(own);
+      result.splines.emplace_back(channels[channel].size(), options, own);
+    }
+    result.samples.emplace_back(channels[channel]);
+    result.spline_of.push_back(spline);
+  }
+  return result;
+}
+
 void smooth_channel(SmoothingSpline& spline,
                     std::vector<double>& channel,
                     std::vector<double>& fitted,
                     ChannelSmoothing& report) {
+  fitted.resize(channel.size());
   report.noise_sigma = spline.fit(channel, fitted).noise_sigma;
   double squares = 0.0;
   for (std::size_t i = 0; i < channel.size(); ++i) {
@@ -244,25 +276,27 @@ void smooth_channel(SmoothingSpline& spline,
     }
   }
   report.removed_rms = std::sqrt(squares / static_cast<double>(channel.size()));
-  channel = fitted;
+  channel.swap(fitted);
 }
 
 }  // namespace
 
-ChosenPenalties choose_penalties(SmoothingSpline& spline,
-                                 std::span<const std::span<const double>> channels,
+ChosenPenalties choose_penalties(SmoothingChannels& channels,
                                  std::span<const std::vector<std::size_t>> groups,
                                  GroupRule rule) {
-  LatticeScores scores(spline, channels);
+  if (channels.samples.empty()) return {};
+  MAREY_ASSERT(channels.spline_of.size() == channels.samples.size());
+  LatticeScores scores(channels);
+  const int order = channels.splines.front().options().order;
   const auto search = [&](std::span<const std::vector<std::size_t>> sets) {
     std::vector<double> penalties = LatticeSearch(scores, sets).run();
     for (double& penalty : penalties) {
-      penalty = std::exp(lattice_log_penalty(penalty, spline.options().order));
+      penalty = std::exp(lattice_log_penalty(penalty, order));
     }
     return penalties;
   };
   std::vector<std::vector<std::size_t>> singles;
-  for (std::size_t i = 0; i < channels.size(); ++i) singles.push_back({i});
+  for (std::size_t i = 0; i < channels.samples.size(); ++i) singles.push_back({i});
   ChosenPenalties chosen;
   chosen.channels = search(singles);
   if (rule == GroupRule::kJoint) {
@@ -282,15 +316,15 @@ SmoothingReport smooth_groups(std::span<std::vector<double>> channels,
                               std::span<const std::vector<std::size_t>> groups,
                               double rate_hz,
                               const ChooseSmoothingOptions& options,
-                              std::span<const double> weights) {
+                              std::span<const std::vector<double>> weights) {
   MAREY_ASSERT(rate_hz > 0.0);
+  MAREY_ASSERT(weights.empty() || weights.size() == channels.size());
   SmoothingReport report;
   report.channels.resize(channels.size());
   report.groups.resize(groups.size());
   const auto kept = smoothable_channels(channels, groups, report);
 
-  std::vector<std::size_t> listed;  // Channel of each entry of `samples`.
-  std::vector<std::span<const double>> samples;
+  std::vector<std::size_t> listed;             // Channel of each entry of `samples`.
   std::vector<std::vector<std::size_t>> sets;  // Entries of `samples`.
   std::vector<std::size_t> group_of_set;
   for (std::size_t group = 0; group < kept.size(); ++group) {
@@ -298,25 +332,24 @@ SmoothingReport smooth_groups(std::span<std::vector<double>> channels,
     sets.emplace_back();
     group_of_set.push_back(group);
     for (const std::size_t channel : kept[group]) {
-      sets.back().push_back(samples.size());
+      sets.back().push_back(listed.size());
       listed.push_back(channel);
-      samples.emplace_back(channels[channel]);
     }
   }
-  if (samples.empty()) return report;
-
-  SmoothingSpline spline(samples.front().size(), options.spline, weights);
-  const auto chosen = choose_penalties(spline, samples, sets, options.rule);
-  std::vector<double> fitted(spline.samples());
+  SmoothingChannels smoothed =
+      with_shared_splines(channels, listed, options.spline, weights);
+  const auto chosen = choose_penalties(smoothed, sets, options.rule);
+  std::vector<double> fitted;
   for (std::size_t set = 0; set < sets.size(); ++set) {
     const double penalty = chosen.groups[set];
     report.groups[group_of_set[set]] = {penalty,
                                         half_power_hz(penalty, rate_hz, options.spline)};
-    spline.set_penalty(penalty);
+    for (SmoothingSpline& spline : smoothed.splines) spline.set_penalty(penalty);
     for (const std::size_t i : sets[set]) {
       ChannelSmoothing& channel = report.channels[listed[i]];
       channel.own_penalty = chosen.channels[i];
-      smooth_channel(spline, channels[listed[i]], fitted, channel);
+      smooth_channel(
+          smoothed.splines[smoothed.spline_of[i]], channels[listed[i]], fitted, channel);
     }
   }
   return report;

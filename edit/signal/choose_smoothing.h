@@ -63,30 +63,41 @@ struct ChosenPenalties {
   std::vector<double> groups;    ///< Each group's.
 };
 
+/// Channels with the splines that smooth them. Channels of equal weights share a spline,
+/// and thereby its factorisations.
+struct SmoothingChannels {
+  std::vector<SmoothingSpline> splines;          ///< One per set of weights.
+  std::vector<std::span<const double>> samples;  ///< One per channel. Borrowed.
+  std::vector<std::size_t> spline_of;            ///< Index of each channel's spline.
+};
+
 /// Returns the penalty with the least generalised cross-validation score (Craven & Wahba
 /// 1979) of each channel, and the shared penalty of each group. The search runs over a
 /// fixed lattice of cut-offs, from twice the Nyquist frequency down to that of
 /// max_spline_penalty(): steps of half an octave, refined to 1/16 of an octave, then a
 /// parabola. Deterministic; a channel's own penalty does not depend on the other
-/// channels. About 25 fits per channel, and fewer than 200 factorisations in all.
-/// Preconditions: all channels have spline.samples() finite samples and are not straight;
-/// groups are not empty and index channels. Changes the penalty of `spline`.
+/// channels. About 25 fits per channel, and fewer than 200 factorisations per spline.
+///
+/// The score assumes white noise. If the noise of consecutive samples is correlated, the
+/// penalties are too small.
+/// Preconditions: all channels have as many samples as their splines, all finite, and are
+/// not straight; the splines have one order; groups are not empty and index channels.
+/// Changes the penalties of the splines.
 [[nodiscard]] ChosenPenalties choose_penalties(
-    SmoothingSpline& spline,
-    std::span<const std::span<const double>> channels,
+    SmoothingChannels& channels,
     std::span<const std::vector<std::size_t>> groups,
     GroupRule rule = GroupRule::kJoint);
 
 /// Smooths channels in place by splines, with one penalty per group: a noisy elbow must
 /// not be smoother than its wrist. Channels in no group are left as they are.
 /// Preconditions: all channels have the same number of samples, all finite; groups index
-/// channels, each channel at most once; weights empty or one per sample, each above 0;
-/// rate_hz > 0.
+/// channels, each channel at most once; rate_hz > 0; `weights` is empty (all 1), or has
+/// an entry for each channel: empty (all 1) or one weight per sample, each above 0.
 [[nodiscard]] SmoothingReport smooth_groups(
     std::span<std::vector<double>> channels,
     std::span<const std::vector<std::size_t>> groups,
     double rate_hz,
     const ChooseSmoothingOptions& options = {},
-    std::span<const double> weights = {});
+    std::span<const std::vector<double>> weights = {});
 
 }  // namespace marey::edit

@@ -16,9 +16,9 @@ struct SplineOptions {
   int order = 2;
 };
 
-/// Returns the largest penalty for which double precision keeps the fit within 1e-6 of the
-/// samples' range. At 120 Hz it is a half-power cut-off of 0.09 Hz (order 2) or 0.36 Hz
-/// (order 3).
+/// Returns the largest penalty for which double precision keeps the fit within 1e-6 of
+/// the samples' range. At 120 Hz it is a half-power cut-off of 0.09 Hz (order 2) or 0.36
+/// Hz (order 3).
 [[nodiscard]] double max_spline_penalty(SplineOptions options);
 
 /// Returns the frequency [Hz] at which the spline halves the power of a signal (gain

@@ -17,7 +17,7 @@
 namespace marey::edit {
 namespace {
 
-constexpr double kRate_hz = 120.0;
+constexpr double kSwingRate_hz = 120.0;
 using Rotations = std::vector<glm::dquat>;
 
 /// Largest entry of the difference of the rotations, either sign.
@@ -46,7 +46,7 @@ double rms_angle(const Rotations& a, const Rotations& b) {
 Rotations swinging(std::size_t samples, double size_rad) {
   Rotations rotations;
   for (std::size_t i = 0; i < samples; ++i) {
-    const double t = 2.0 * std::numbers::pi * static_cast<double>(i) / kRate_hz;
+    const double t = 2.0 * std::numbers::pi * static_cast<double>(i) / kSwingRate_hz;
     rotations.push_back(
         rotation_from_vector({size_rad * std::sin(0.9 * t), 0.0, 0.0}) *
         rotation_from_vector({0.0, 0.7 * size_rad * std::sin(1.4 * t + 1.0), 0.0}) *
@@ -66,7 +66,7 @@ Rotations spinning(std::size_t samples, double turns, const glm::dvec3& axis) {
   return rotations;
 }
 
-Rotations with_noise(Rotations rotations, double sigma_rad, unsigned seed) {
+Rotations rotations_with_noise(Rotations rotations, double sigma_rad, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(0.0, sigma_rad);
   for (glm::dquat& rotation : rotations) {
@@ -81,7 +81,7 @@ Rotations with_noise(Rotations rotations, double sigma_rad, unsigned seed) {
 VectorFilter spline_filter(double cutoff_hz, int order) {
   return [=](std::span<std::vector<double>> channels) {
     SmoothingSpline spline(channels[0].size(), {order});
-    spline.set_penalty(penalty_of_half_power(cutoff_hz, kRate_hz, {order}));
+    spline.set_penalty(penalty_of_half_power(cutoff_hz, kSwingRate_hz, {order}));
     for (auto& channel : channels) static_cast<void>(spline.fit(channel, channel));
   };
 }
@@ -91,13 +91,13 @@ VectorFilter gcv_filter(const Rotations& rotations) {
   const RotationChannels built(rotations);
   auto channels = built.channels();
   const std::vector<std::vector<std::size_t>> groups{{0, 1, 2}};
-  const auto report = smooth_groups(channels, groups, kRate_hz);
+  const auto report = smooth_groups(channels, groups, kSwingRate_hz);
   return spline_filter(report.groups[0].cutoff_hz, 2);
 }
 
 VectorFilter butterworth_filter(double cutoff_hz) {
   return [=](std::span<std::vector<double>> channels) {
-    for (auto& channel : channels) filter_butterworth(channel, cutoff_hz, kRate_hz);
+    for (auto& channel : channels) filter_butterworth(channel, cutoff_hz, kSwingRate_hz);
   };
 }
 
@@ -109,7 +109,7 @@ const glm::dquat kWorld = rotation_from_vector({0.4, -1.9, 0.8});
 const glm::dquat kJoint = rotation_from_vector({-1.1, 0.3, 2.0});
 
 TEST(RotationChannels, OtherWorldAxesTurnTheResultAndNothingElse) {
-  const Rotations source = with_noise(swinging(480, 1.2), 0.02, 1);
+  const Rotations source = rotations_with_noise(swinging(480, 1.2), 0.02, 1);
   Rotations turned;
   for (const auto& q : source) turned.push_back(kWorld * q);
   for (const VectorFilter& filter : all_filters()) {
@@ -120,7 +120,7 @@ TEST(RotationChannels, OtherWorldAxesTurnTheResultAndNothingElse) {
 }
 
 TEST(RotationChannels, OtherJointAxesTurnTheResultAndNothingElse) {
-  const Rotations source = with_noise(swinging(480, 1.2), 0.02, 2);
+  const Rotations source = rotations_with_noise(swinging(480, 1.2), 0.02, 2);
   Rotations turned;
   for (const auto& q : source) turned.push_back(q * kJoint);
   for (const VectorFilter& filter : all_filters()) {
@@ -131,7 +131,7 @@ TEST(RotationChannels, OtherJointAxesTurnTheResultAndNothingElse) {
 }
 
 TEST(RotationChannels, SignsOfQuaternionsDoNotMatter) {
-  const Rotations source = with_noise(swinging(480, 1.2), 0.02, 3);
+  const Rotations source = rotations_with_noise(swinging(480, 1.2), 0.02, 3);
   Rotations flipped = source;
   for (std::size_t i = 0; i < flipped.size(); i += 3) flipped[i] = -flipped[i];
   const VectorFilter filter = spline_filter(6.0, 2);
@@ -141,7 +141,7 @@ TEST(RotationChannels, SignsOfQuaternionsDoNotMatter) {
 }
 
 TEST(RotationChannels, ChannelsThatAreNotFilteredGiveTheRotationsBack) {
-  const Rotations source = with_noise(swinging(480, 1.2), 0.05, 4);
+  const Rotations source = rotations_with_noise(swinging(480, 1.2), 0.05, 4);
   const auto nothing = [](std::span<std::vector<double>>) {};
   EXPECT_LT(largest_difference(filter_rotations(source, nothing), source), 1e-13);
 }
@@ -165,7 +165,7 @@ TEST(RotationChannels, AConstantAngularSpeedIsReproducedOverFiveTurns) {
 TEST(RotationChannels, ASpinOfFiveTurnsWithNoiseHasNoSeam) {
   const Rotations truth = spinning(600, 5.0, {0.2, 1.0, -0.4});
   const Rotations result =
-      filter_rotations(with_noise(truth, 0.02, 5), spline_filter(6.0, 2));
+      filter_rotations(rotations_with_noise(truth, 0.02, 5), spline_filter(6.0, 2));
   const double step_rad = 10.0 * std::numbers::pi / 599.0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const auto off = rotation_vector(glm::conjugate(truth[i]) * result[i]);
@@ -186,11 +186,11 @@ TEST(RotationChannels, NoiseIsReducedAsMuchAsThatOfAVector) {
     const auto without_noise = filter_rotations(truth, filter);
     double errors = 0.0;
     for (unsigned seed = 0; seed < 5; ++seed) {
-      const Rotations noisy = with_noise(truth, 0.01, seed);
+      const Rotations noisy = rotations_with_noise(truth, 0.01, seed);
       errors += rms_angle(filter_rotations(noisy, filter), without_noise) / 5.0;
     }
     // Sigma of white noise after the filter: the root of the mean of 1 / (1 + x^4)^2.
-    const double expected = 0.01 * std::sqrt(2.0 * 8.0 / kRate_hz * 1.038);
+    const double expected = 0.01 * std::sqrt(2.0 * 8.0 / kSwingRate_hz * 1.038);
     EXPECT_NEAR(errors / expected, 1.0, 0.06) << size_rad;
   }
 }
@@ -198,7 +198,7 @@ TEST(RotationChannels, NoiseIsReducedAsMuchAsThatOfAVector) {
 TEST(RotationChannels, TheChosenPenaltyReducesNoiseByHalfOrMore) {
   const Rotations truth = swinging(600, 1.0);
   for (const double sigma_rad : {0.01, 0.05}) {
-    const Rotations noisy = with_noise(truth, sigma_rad, 6);
+    const Rotations noisy = rotations_with_noise(truth, sigma_rad, 6);
     const auto result = filter_rotations(noisy, gcv_filter(noisy));
     EXPECT_LT(rms_angle(result, truth), 0.45 * sigma_rad);
   }

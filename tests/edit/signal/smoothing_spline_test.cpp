@@ -16,10 +16,10 @@
 namespace marey::edit {
 namespace {
 
-using Matrix = std::vector<std::vector<long double>>;
+using DenseMatrix = std::vector<std::vector<long double>>;
 
 /// Solves a X = b by Gaussian elimination with pivots; returns X.
-Matrix solve_dense(Matrix a, Matrix b) {
+DenseMatrix solve_dense(DenseMatrix a, DenseMatrix b) {
   const std::size_t n = a.size();
   for (std::size_t k = 0; k < n; ++k) {
     std::size_t pivot = k;
@@ -43,18 +43,18 @@ Matrix solve_dense(Matrix a, Matrix b) {
 }
 
 /// The influence matrix (W + penalty D' R^-1 D)^-1 W, by dense algebra.
-Matrix dense_influence(std::size_t n,
-                       int order,
-                       double penalty,
-                       const std::vector<double>& weights) {
+DenseMatrix dense_influence(std::size_t n,
+                            int order,
+                            double penalty,
+                            const std::vector<double>& weights) {
   const auto m = static_cast<std::size_t>(order);
   const std::vector<long double> s = order == 2 ? std::vector<long double>{1, -2, 1}
                                                 : std::vector<long double>{-1, 3, -3, 1};
   const std::vector<long double> gram =
       order == 2 ? std::vector<long double>{4.0L / 6, 1.0L / 6}
                  : std::vector<long double>{66.0L / 120, 26.0L / 120, 1.0L / 120};
-  Matrix d(n - m, std::vector<long double>(n, 0));
-  Matrix r(n - m, std::vector<long double>(n - m, 0));
+  DenseMatrix d(n - m, std::vector<long double>(n, 0));
+  DenseMatrix r(n - m, std::vector<long double>(n - m, 0));
   for (std::size_t i = 0; i < n - m; ++i) {
     for (std::size_t j = 0; j <= m; ++j) d[i][i + j] = s[j];
     for (std::size_t j = 0; j < n - m; ++j) {
@@ -62,9 +62,9 @@ Matrix dense_influence(std::size_t n,
       if (gap < gram.size()) r[i][j] = gram[gap];
     }
   }
-  const Matrix rd = solve_dense(r, d);
-  Matrix left(n, std::vector<long double>(n, 0));
-  Matrix right(n, std::vector<long double>(n, 0));
+  const DenseMatrix rd = solve_dense(r, d);
+  DenseMatrix left(n, std::vector<long double>(n, 0));
+  DenseMatrix right(n, std::vector<long double>(n, 0));
   for (std::size_t i = 0; i < n; ++i) {
     left[i][i] = right[i][i] = weights[i];
     for (std::size_t j = 0; j < n; ++j) {
@@ -93,7 +93,8 @@ TEST_P(SmoothingSplineOfOrder, FitAndTraceEqualThoseOfDenseAlgebra) {
       testing::with_noise(testing::band_limited(kSamples, 120.0, 8.0, 1), 0.05, 2);
   SmoothingSpline spline(kSamples, options, weights);
   for (const double penalty : {1e-5, 1e-2, 1.0, 100.0, 1e5, 1e8}) {
-    const Matrix influence = dense_influence(kSamples, options.order, penalty, weights);
+    const DenseMatrix influence =
+        dense_influence(kSamples, options.order, penalty, weights);
     spline.set_penalty(penalty);
     std::vector<double> fitted(kSamples);
     const SplineFit fit = spline.fit(channel, fitted);
