@@ -14,7 +14,8 @@
 
 #include "edit/find/travel_path.h"
 #include "edit/ops/path_change.h"
-#include "edit/state/move_constraint.h"
+#include "edit/state/check_op_keys.h"
+#include "edit/state/move_state.h"
 #include "edit/state/plant_feet.h"
 #include "edit/state/resample_state.h"
 #include "edit/state/resolve_moment.h"
@@ -40,15 +41,7 @@ std::string path_number(const char* format, double value) {
 }
 
 Status check_path_op(const PathOp& op, const EditOp& with) {
-  if (!with.groups.empty()) {
-    return bad_input(
-        "groups", "a path moves the whole body", "leave groups out of this operation");
-  }
-  if (with.blend_s > 0.0) {
-    return bad_input("blend_s",
-                     "a path has no fade: what follows its span moves with its end",
-                     "leave blend_s out of this operation");
-  }
+  if (const Status ok = check_op_keys(with, {.span = true}); !ok) return ok;
   if (op.points_xz_m.empty()) return Done{};
   if (op.turn_rad != 0.0 || op.length != 1.0 || op.straight) {
     return bad_input("points",
@@ -98,6 +91,35 @@ retarget::FootPlace moved_foot(const RigidTransform& moved_from_old,
           moved_from_old.rotation * foot.toes};
 }
 
+/// Returns the stances with the swings in which a leg must reach as well: a foot that is
+/// about to land is far ahead. Longer swings (kicks, jumps) count near their stances
+/// only.
+std::vector<FrameRange> with_swings(const std::vector<FrameRange>& stances,
+                                    double hz,
+                                    int frame_count) {
+  constexpr double kNear_s = 0.15;
+  constexpr double kStep_s = 0.8;
+  const int near = static_cast<int>(std::lround(kNear_s * hz));
+  const int step = static_cast<int>(std::lround(kStep_s * hz));
+  std::vector<FrameRange> out;
+  for (const FrameRange& stance : stances) {
+    const int before = out.empty() ? 0 : out.back().last + 1;
+    if (stance.first - before > step) {
+      out.push_back({stance.first - near, stance.last});
+    } else if (out.empty()) {
+      out.push_back({0, stance.last});
+    } else {
+      out.back().last = stance.last;
+      continue;
+    }
+    if (out.size() > 1) out[out.size() - 2].last += near;
+  }
+  if (out.empty()) return out;
+  const int left = frame_count - 1 - out.back().last;
+  out.back().last += left > step ? near : left;
+  return out;
+}
+
 /// Moves the root with the path at each frame, and the feet with the path at the instants
 /// of their stances.
 PlantReport move_body(const PathChange& change,
@@ -121,7 +143,19 @@ PlantReport move_body(const PathChange& change,
   }
   retarget::GroundOptions ground;
   ground.straight = kBentLeg;
-  return set_feet(state, feet, ground);
+  const retarget::Contacts contacts = state.contacts;
+  for (auto& foot : state.contacts.feet) {
+    foot.stance = with_swings(foot.stance, state.motion.rate.hz, count);
+  }
+  const PlantReport planted = set_feet(state, feet, ground);
+  state.contacts = contacts;
+  return planted;
+}
+
+/// Returns whether the world's axes limit a constraint.
+bool is_space(const Constraint& constraint) {
+  return std::holds_alternative<AllowedSpace>(constraint.goal) ||
+         std::holds_alternative<ForbiddenSpace>(constraint.goal);
 }
 
 /// Moves the constraints; returns findings for those that have no exact image.
@@ -129,19 +163,18 @@ void move_constraints(const PathChange& change, EditState& state, OpReport& repo
   const double duration_s = state.duration_s();
   for (Constraint& constraint : state.constraints.constraints) {
     const double hz = state.motion.rate.hz;
-    const double at = middle_s(constraint, duration_s) * hz;
     const Activation& active = constraint.activation;
     const double from = std::clamp(active.start_s.value_or(0.0), 0.0, duration_s) * hz;
     const double to =
         std::clamp(active.stop_s.value_or(duration_s), 0.0, duration_s) * hz;
     const Goal before = constraint.goal;
-    const bool exact = move_constraint(change.moved_from_old(at), constraint);
-    if (!exact) {
-      report.findings.push_back(fair_finding(
-          "constraint_space",
-          "constraint " + constraint.id,
-          "the space moved with the path, but stays parallel to the world's axes",
-          "check its limits"));
+    move_constraint(change.moved_from_old(0.5 * (from + to)), constraint);
+    if (is_space(constraint)) {
+      report.findings.push_back(
+          fair_finding("constraint_space",
+                       "constraint " + constraint.id,
+                       "the space moved with the path, but stays along the world's axes",
+                       "check its limits"));
     }
     const auto* goal = std::get_if<DistanceToPoint>(&before);
     if (goal == nullptr) continue;
