@@ -2,10 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "edit/state/op_report.h"
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include "core/pose.h"
