@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "edit/ops/offset.h"
 
-#include "edit/ops/unused_keys.h"
+#include "edit/state/check_op_keys.h"
 #include "edit/state/displace_bone.h"
 #include "edit/state/op_weights.h"
 
@@ -12,10 +12,8 @@ Result<EditState> apply_offset(const OffsetOp& op,
                                const OpContext& context,
                                const EditState& state,
                                OpReport& report) {
-  if (auto error = unused_key(context.op,
-                              {.span = true, .blend = true},
-                              "remove it: the bone states what moves")) {
-    return *std::move(error);
+  if (const Status ok = check_op_keys(context.op, {.span = true, .blend = true}); !ok) {
+    return ok.error();
   }
   const auto weights = op_weights(state, context.op);
   if (!weights) return weights.error();

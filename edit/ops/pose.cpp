@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <string>
 
-#include "edit/ops/unused_keys.h"
+#include "edit/state/check_op_keys.h"
 #include "edit/state/displace_bone.h"
 #include "edit/state/op_weights.h"
 #include "edit/state/resolve_moment.h"
@@ -39,9 +39,7 @@ Result<EditState> apply_pose(const PoseOp& op,
                              const OpContext& context,
                              const EditState& state,
                              OpReport& report) {
-  if (auto error = unused_key(context.op, {}, "give the instant as at, and width_s")) {
-    return *std::move(error);
-  }
+  if (const Status ok = check_op_keys(context.op, {}); !ok) return ok.error();
   constexpr double kMaxWidth_s = 1e6;
   if (!(op.width_s > 0.0 && op.width_s < kMaxWidth_s)) {  // True for NaN.
     return bad_input("width_s",
