@@ -11,6 +11,7 @@
 #include "core/base/ids.h"
 #include "core/base/result.h"
 #include "core/edit/edit_ops.h"
+#include "core/skeleton.h"
 
 namespace marey::edit {
 
@@ -23,9 +24,11 @@ struct OpWeights {
 /// Errors: resolve_span()'s.
 [[nodiscard]] Result<OpWeights> op_weights(const EditState& state, const EditOp& op);
 
-/// Returns the joints of these groups, ascending; all joints if there are none. The root
-/// group is the root's translation and rotation; it has the joints from the skeleton's
-/// root to the hips. Joints without a bone belong to the group of their parent.
+/// Returns the group of each joint. Joints without a bone belong to the group of their
+/// parent; those between hips and trunk to the trunk, those above the hips to the root.
+[[nodiscard]] std::vector<EditGroup> groups_of_joints(const Skeleton& skeleton);
+
+/// Returns the joints of these groups, ascending; all joints if there are none.
 [[nodiscard]] std::vector<JointIndex> joints_of_groups(const EditState& state,
                                                        std::span<const EditGroup> groups);
 

@@ -25,7 +25,7 @@ namespace marey::edit {
 
 /// Returns the state on another time grid: frame k shows the instant `at_frame[k]` of the
 /// state (an index with its fraction). Whole numbers give poses to the bit; between, the
-/// root is interpolated by a cubic and rotations the shorter way. Annotations, contacts,
+/// root and rotations are interpolated by cubic splines. Annotations, contacts,
 /// constraints and contact edits move to the times at which their instants appear; what
 /// lies outside is dropped. Uncertainty is the larger of both neighbours'. Linear in
 /// frames.

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "edit/state/plant_feet.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <utility>
+
+#include "edit/state/op_weights.h"
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "core/base/assert.h"
+#include "core/pose.h"
+#include "retarget/body/normalized_skeleton.h"
+#include "retarget/feet/adapt_to_ground.h"
+#include "retarget/feet/leg_placement.h"
+
+namespace marey::edit {
+namespace {
+
+using retarget::FootPlace;
+using retarget::NormalizedPose;
+
+// A frame whose feet move by less than this keeps its pose to the bit. [m]
+constexpr double kUnmoved_m = 1e-9;
+// The same for the rotation of feet and toes: 1 minus the dot product of quaternions.
+constexpr double kUnturned = 1e-15;
+
+/// The motion in normalized postures and as frames of its feet.
+struct PlantFrames {
+  std::vector<NormalizedPose> poses;
+  std::array<std::vector<FootPlace>, 2> feet;
+};
+
+PlantFrames plant_frames(const EditState& state) {
+  PlantFrames out;
+  const Skeleton& skeleton = state.motion.skeleton;
+  std::vector<RigidTransform> joints(skeleton.joints.size());
+  out.poses.resize(state.motion.poses.size());
+  for (std::size_t t = 0; t < out.poses.size(); ++t) {
+    world_from_joints(skeleton, state.motion.poses[t], joints);
+    retarget::normalize(
+        state.map, joints, out.poses[t], retarget::RootNormalization::kNone);
+    for (int side = 0; side < 2; ++side) {
+      out.feet[static_cast<std::size_t>(side)].push_back(
+          retarget::foot_of(state.map, out.poses[t], joints, side));
+    }
+  }
+  return out;
+}
+
+double moved_m(const FootPlace& a, const FootPlace& b) {
+  return glm::distance(a.ankle_in_world, b.ankle_in_world);
+}
+
+bool is_turned(const glm::dquat& a, const glm::dquat& b) {
+  const double dot = glm::dot(a, b);
+  return 1.0 - dot * dot > kUnturned;
+}
+
+bool is_same_place(const FootPlace& a, const FootPlace& b) {
+  return moved_m(a, b) < kUnmoved_m && !is_turned(a.foot, b.foot) &&
+         !is_turned(a.toes, b.toes);
+}
+
+std::vector<std::size_t> leg_joints(const EditState& state) {
+  constexpr std::array kLegs{EditGroup::kLeftLeg, EditGroup::kRightLeg};
+  std::vector<std::size_t> out;
+  for (const JointIndex joint : joints_of_groups(state, kLegs)) {
+    out.push_back(index(joint));
+  }
+  return out;
+}
+
+/// Takes legs and root from the settled postures, and everything else from the motion.
+void take_legs(const std::vector<NormalizedPose>& settled,
+               const PlantFrames& before,
+               const std::array<std::vector<FootPlace>, 2>& feet,
+               EditState& state) {
+  const Skeleton& skeleton = state.motion.skeleton;
+  const std::vector<std::size_t> legs = leg_joints(state);
+  std::vector<RigidTransform> joints(skeleton.joints.size());
+  Pose expanded;
+  for (std::size_t t = 0; t < settled.size(); ++t) {
+    const glm::dvec3 sunk = settled[t].root - before.poses[t].root;
+    if (glm::length(sunk) < kUnmoved_m && is_same_place(before.feet[0][t], feet[0][t]) &&
+        is_same_place(before.feet[1][t], feet[1][t])) {
+      continue;
+    }
+    retarget::expand(settled[t], skeleton, state.map, joints, expanded);
+    Pose& pose = state.motion.poses[t];
+    pose.root_in_world += sunk;
+    for (const std::size_t joint : legs) {
+      pose.parent_from_joint[joint] = expanded.parent_from_joint[joint];
+    }
+  }
+}
+
+double largest_move_m(const PlantFrames& before,
+                      const std::array<std::vector<FootPlace>, 2>& feet) {
+  double largest = 0.0;
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (std::size_t t = 0; t < feet[side].size(); ++t) {
+      largest = std::max(largest, moved_m(before.feet[side][t], feet[side][t]));
+    }
+  }
+  return largest;
+}
+
+void raise(std::vector<NormalizedPose>& poses, double height_m) {
+  for (NormalizedPose& pose : poses) pose.root.y += height_m;
+}
+
+void settle(const PlantFrames& before,
+            std::array<std::vector<FootPlace>, 2> feet,
+            EditState& state,
+            PlantReport& report) {
+  std::vector<NormalizedPose> settled = before.poses;
+  report.largest_moved_m = largest_move_m(before, feet);
+  report.unreachable_frames = retarget::settle_on_feet(state.motion.skeleton,
+                                                       state.map,
+                                                       state.contacts,
+                                                       state.motion.rate,
+                                                       settled,
+                                                       feet,
+                                                       {})
+                                  .unreachable_frames;
+  take_legs(settled, before, feet, state);
+}
+
+}  // namespace
+
+PlantReport plant_feet(EditState& state) {
+  PlantReport report;
+  const auto& contacts = state.contacts.feet;
+  if (contacts[0].stance.empty() && contacts[1].stance.empty()) return report;
+  report.slide_before_mm = measure_slide(state).worst_drift_mm;
+  const PlantFrames before = plant_frames(state);
+  const double rise_m =
+      retarget::standing_rise_m(state.map, state.contacts, state.map, 1.0);
+  std::vector<NormalizedPose> level = before.poses;
+  raise(level, rise_m);
+  auto feet = retarget::plan_level_feet(
+      state.motion.skeleton, state.map, state.contacts, state.motion.rate, level, {});
+  for (auto& path : feet) {
+    for (FootPlace& place : path) place.ankle_in_world.y -= rise_m;
+  }
+  settle(before, std::move(feet), state, report);
+  report.slide_after_mm = measure_slide(state).worst_drift_mm;
+  return report;
+}
+
+PlantReport set_feet(EditState& state,
+                     const std::array<std::vector<std::optional<FootPlace>>, 2>& feet) {
+  PlantReport report;
+  report.slide_before_mm = measure_slide(state).worst_drift_mm;
+  const PlantFrames before = plant_frames(state);
+  std::array<std::vector<FootPlace>, 2> planned = before.feet;
+  for (std::size_t side = 0; side < 2; ++side) {
+    MAREY_ASSERT(feet[side].size() == planned[side].size());
+    for (std::size_t t = 0; t < planned[side].size(); ++t) {
+      if (feet[side][t]) planned[side][t] = *feet[side][t];
+    }
+  }
+  settle(before, std::move(planned), state, report);
+  report.slide_after_mm = measure_slide(state).worst_drift_mm;
+  return report;
+}
+
+std::vector<FootPlace> foot_places(const EditState& state, int side) {
+  return plant_frames(state).feet[static_cast<std::size_t>(side)];
+}
+
+SlideFigures measure_slide(const EditState& state) {
+  SlideFigures out;
+  const Skeleton& skeleton = state.motion.skeleton;
+  std::vector<RigidTransform> joints(skeleton.joints.size());
+  struct Point {
+    std::size_t joint = 0;
+    const std::vector<FrameRange>* runs = nullptr;
+    std::vector<glm::dvec2> path;
+  };
+  std::vector<Point> points;
+  for (int side = 0; side < 2; ++side) {
+    const auto& foot = state.contacts.feet[static_cast<std::size_t>(side)];
+    points.push_back({index(state.map.leg(side).end), &foot.heel, {}});
+    const auto toes = state.map.joint_of[marey::index(retarget::toes_bone(side))];
+    if (toes) points.push_back({index(*toes), &foot.ball, {}});
+  }
+  for (const Pose& pose : state.motion.poses) {
+    world_from_joints(skeleton, pose, joints);
+    for (Point& point : points) {
+      const glm::dvec3& p = joints[point.joint].translation;
+      point.path.emplace_back(p.x, p.z);
+    }
+  }
+  double way_m = 0.0;
+  int steps = 0;
+  for (const Point& point : points) {
+    for (const FrameRange& run : *point.runs) {
+      const glm::dvec2 start = point.path[static_cast<std::size_t>(run.first)];
+      for (int frame = run.first + 1; frame <= run.last; ++frame) {
+        const auto t = static_cast<std::size_t>(frame);
+        way_m += glm::distance(point.path[t], point.path[t - 1]);
+        ++steps;
+        const double drift_mm = 1e3 * glm::distance(point.path[t], start);
+        if (drift_mm <= out.worst_drift_mm) continue;
+        out.worst_drift_mm = drift_mm;
+        out.worst_frame = frame;
+      }
+    }
+  }
+  if (steps > 0) out.mean_cm_per_s = 100.0 * way_m / steps * state.motion.rate.hz;
+  return out;
+}
+
+}  // namespace marey::edit
