@@ -20,7 +20,7 @@ namespace marey::edit {
 /// body. A source at another rate is resampled by splines. One on another body is
 /// retargeted (retarget/motion/retarget_motion.h), with its path and the lengths of its
 /// constraints scaled by the lengths of the legs; uncertainty then is that of the same
-/// bones. Both are said in the report. Linear in frames.
+/// bones. Both are reported. Linear in frames.
 /// Errors (bad input): no such source; one whose rate or body cannot be used.
 [[nodiscard]] Result<EditState> fit_splice_source(const EditState& first,
                                                   const std::string& id,
