@@ -76,7 +76,7 @@ struct Decay {
     const double x4 = x3 * x;
     const double x5 = x4 * x;
     return (1.0 - 10.0 * x3 + 15.0 * x4 - 6.0 * x5) * value +
-           (x - 6.0 * x3 + 8.0 * x4 - 3.0 * x5) * (length * rate);
+           (x - 6.0 * x3 + 8.0 * x4 - 3.0 * x5) * (static_cast<double>(length) * rate);
   }
 };
 
