@@ -13,7 +13,7 @@ set(retarget_LAYERS
   base constraints bones body character contacts feet balance hands motion
   adapt/plan adapt/kernel adapt)
 set(edit_LAYERS signal state find ops .)
-set(recordings_LAYERS base body takes motion gltf markers print session)
+set(recordings_LAYERS base body edit takes motion gltf markers print session)
 set(live_LAYERS udp vmc page web)
 set(app_LAYERS
   shell motion pages adapt convert print plan record check markers process retarget

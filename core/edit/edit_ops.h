@@ -230,6 +230,9 @@ using EditOpParameters = std::variant<CutOp,
                                       CurveOp,
                                       RetargetOp>;
 
+/// The version of every operation so far.
+inline constexpr int kEditOpVersion = 1;
+
 /// One operation of a recipe.
 struct EditOp {
   EditOpParameters parameters;

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "edit/state/op_report.h"
+
+#include "app/motion/motion_files.h"
+#include "app/motion/retarget_files.h"
+#include "core/base/result.h"
+#include "core/edit/edit_recipe.h"
+
+namespace marey::app {
+
+/// The files that a recipe names, read.
+struct EditFiles {
+  edit::EditInputs inputs;
+  std::map<std::string, OpenedAvatar> avatars;  ///< By RetargetOp::avatar.
+  std::vector<std::string> sha256;  ///< Of each source's file, in the recipe's order.
+  std::map<std::string, std::string> avatar_sha256;
+  BodyLook look;  ///< Of the first source's body: with its mesh, if it has one.
+  std::vector<std::string> remarks;  ///< What the readers assumed, with the file.
+};
+
+struct ReadEditOptions {
+  std::filesystem::path folder;     ///< Paths of the recipe are relative to it.
+  std::string recipe_file;          ///< For the place of errors.
+  bool accept_new_sources = false;  ///< A source with another SHA-256 is accepted.
+};
+
+/// Reads sources and avatars. A source is a motion file that `marey retarget` reads, a
+/// trial's folder of results (its motion.npz, with the sigmas and sources of its frames)
+/// or another recipe, which is rendered. A source that is not at its path is looked for
+/// by its name in the recipe's folder.
+/// Errors (bad input), with file and line of the recipe: a file that is missing or cannot
+/// be read; content of another SHA-256 than recorded; recipes that are sources of each
+/// other; make_edit_state()'s.
+[[nodiscard]] Result<EditFiles> read_edit_files(const EditRecipe& recipe,
+                                                const ReadEditOptions& options);
+
+/// Returns the key of each operation for edit::EditCache: the SHA-256 of its text, of
+/// those before it, and of the files that they use.
+[[nodiscard]] std::vector<std::string> edit_keys(const EditRecipe& recipe,
+                                                 const EditFiles& files);
+
+}  // namespace marey::app

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edit/render.h"
+
+#include "app/edit/edit_inputs.h"
+#include "app/motion/motion_files.h"
+#include "core/base/result.h"
+#include "core/edit/edit_recipe.h"
+#include "core/finding.h"
+
+namespace marey::app {
+
+/// What an edit did to one motion, measured on the result by forward kinematics.
+struct EditFigures {
+  std::string name;
+  int frames = 0;
+  double duration_s = 0.0;
+  double slide_mm = 0.0;            ///< Largest drift of a foot within one contact.
+  double slide_cm_per_s = 0.0;      ///< Mean over all contacts.
+  double displaced_mm = 0.0;        ///< Largest displacement of an operation.
+  double acceleration_ratio = 0.0;  ///< Peak of the joints, over the source's peak.
+  double constraint_mm = 0.0;       ///< Largest error of a fully active constraint.
+  int inferred_frames = 0;          ///< Frames that operations invented.
+};
+
+struct EditOutput {
+  std::filesystem::path out;          ///< Folder.
+  std::vector<MotionFormat> formats;  ///< Empty: npz, bvh, and what the body allows.
+};
+
+/// Returns the names of the results: that of the recipe, with .1, .2 ... if there are
+/// several.
+[[nodiscard]] std::vector<std::string> edit_names(const EditRecipe& recipe,
+                                                  std::size_t outputs);
+
+[[nodiscard]] std::vector<EditFigures> measure_edit(const EditRecipe& recipe,
+                                                    const EditFiles& files,
+                                                    const edit::Rendered& rendered);
+
+/// Returns a poor finding for each figure above its limit in the recipe.
+[[nodiscard]] std::vector<Finding> assess_edit(const EditRecipe& recipe,
+                                               const std::vector<EditFigures>& figures);
+
+/// Writes NAME.npz, .bvh, .glb and .vrma (what the body allows), NAME.constraints.xml if
+/// there are any, NAME.annotations.json and edit.json. Each file appears whole or not at
+/// all; same input, same bytes. Returns the files.
+/// Errors: the disk.
+[[nodiscard]] Result<std::vector<std::filesystem::path>> write_edit(
+    const EditRecipe& recipe,
+    const EditFiles& files,
+    const edit::Rendered& rendered,
+    const std::vector<EditFigures>& figures,
+    const EditOutput& output);
+
+}  // namespace marey::app

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "edit/ops/annotate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "edit/state/check_op_keys.h"
+#include "edit/state/resolve_moment.h"
+#include <glm/common.hpp>
+
+#include "core/base/in_quotes.h"
+
+namespace marey::edit {
+namespace {
+
+Status check_text(const std::string& text, const char* key) {
+  if (!text.empty()) return Done{};
+  return bad_input(key, "is empty", "state a text such as \"locomotion:walk\"");
+}
+
+void insert_note(Annotation note, Annotations& annotations) {
+  const auto later = [](const Annotation& a, const Annotation& b) {
+    return std::pair(a.start_s, a.text) < std::pair(b.start_s, b.text);
+  };
+  auto& notes = annotations.notes;
+  notes.insert(std::upper_bound(notes.begin(), notes.end(), note, later), note);
+}
+
+/// Returns the value at a frame. Precondition: keys ascend by frame and are not empty.
+double value_at(const std::vector<std::pair<double, double>>& keys, double frame) {
+  if (frame <= keys.front().first) return keys.front().second;
+  for (std::size_t i = 1; i < keys.size(); ++i) {
+    if (frame > keys[i].first) continue;
+    const double share =
+        (frame - keys[i - 1].first) / (keys[i].first - keys[i - 1].first);
+    return glm::mix(keys[i - 1].second, keys[i].second, share);
+  }
+  return keys.back().second;
+}
+
+Result<std::vector<std::pair<double, double>>> curve_keys(const CurveOp& op,
+                                                          const EditState& state) {
+  std::vector<std::pair<double, double>> keys;
+  for (const CurveKey& key : op.keys) {
+    const auto frame = resolve_moment(state, key.at);
+    if (!frame) return frame.error();
+    if (!std::isfinite(key.value)) {
+      return bad_input("keys", "has a value that is not finite", "state a number");
+    }
+    if (!keys.empty() && *frame <= keys.back().first) {
+      return bad_input("keys", "do not ascend in time", "sort them by time");
+    }
+    keys.emplace_back(*frame, key.value);
+  }
+  if (keys.empty()) return bad_input("keys", "is empty", "state at least one key");
+  return keys;
+}
+
+}  // namespace
+
+Result<EditState> apply_tag(const TagOp& op,
+                            const OpContext& context,
+                            const EditState& state,
+                            OpReport& /*report*/) {
+  if (const Status ok = check_op_keys(context.op, {.span = true}); !ok) return ok.error();
+  if (const Status ok = check_text(op.text, "text"); !ok) return ok.error();
+  const auto span = resolve_span(state, context.op.span);
+  if (!span) return span.error();
+  EditState out = state;
+  const double hz = state.motion.rate.hz;
+  insert_note({op.text, span->first / hz, span->last / hz}, out.annotations);
+  return out;
+}
+
+Result<EditState> apply_event(const EventOp& op,
+                              const OpContext& context,
+                              const EditState& state,
+                              OpReport& /*report*/) {
+  if (const Status ok = check_op_keys(context.op, {}); !ok) return ok.error();
+  if (const Status ok = check_text(op.text, "text"); !ok) return ok.error();
+  const auto frame = resolve_moment(state, op.at);
+  if (!frame) return frame.error();
+  EditState out = state;
+  const double time_s = *frame / state.motion.rate.hz;
+  insert_note({op.text, time_s, time_s}, out.annotations);
+  return out;
+}
+
+Result<EditState> apply_curve(const CurveOp& op,
+                              const OpContext& context,
+                              const EditState& state,
+                              OpReport& /*report*/) {
+  if (const Status ok = check_op_keys(context.op, {}); !ok) return ok.error();
+  if (const Status ok = check_text(op.name, "name"); !ok) return ok.error();
+  const auto keys = curve_keys(op, state);
+  if (!keys) return keys.error();
+  ValueCurve curve{op.name, {}};
+  for (int frame = 0; frame < state.frame_count(); ++frame) {
+    curve.values.push_back(value_at(*keys, frame));
+  }
+  EditState out = state;
+  auto& curves = out.annotations.curves;
+  const auto same = std::find_if(curves.begin(), curves.end(), [&](const ValueCurve& c) {
+    return c.name == op.name;
+  });
+  if (same != curves.end()) {
+    *same = std::move(curve);
+  } else {
+    curves.push_back(std::move(curve));
+  }
+  return out;
+}
+
+}  // namespace marey::edit

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "edit/state/edit_state.h"
+#include "edit/state/op_report.h"
+
+#include "core/base/result.h"
+#include "core/edit/edit_ops.h"
+
+namespace marey::edit {
+
+// All of them: whole frames are kept to the bit; a span that begins between two frames is
+// resampled (resample_state()). Errors: resolve_span()'s; groups or blend_s are given.
+
+/// Keeps the span and drops the rest. The result begins at time 0.
+[[nodiscard]] Result<EditState> apply_cut(const CutOp& op,
+                                          const OpContext& context,
+                                          const EditState& state,
+                                          OpReport& report);
+
+/// Keeps several spans, each as a motion of its own. Errors: no spans.
+[[nodiscard]] Result<std::vector<EditState>> apply_keep(const KeepOp& op,
+                                                        const OpContext& context,
+                                                        const EditState& state,
+                                                        OpReport& report);
+
+/// Divides the motion. A frame at a division belongs to the later part.
+/// Errors: no instants; instants that do not ascend, or leave a part without a frame.
+[[nodiscard]] Result<std::vector<EditState>> apply_split(const SplitOp& op,
+                                                         const OpContext& context,
+                                                         const EditState& state,
+                                                         OpReport& report);
+
+}  // namespace marey::edit
