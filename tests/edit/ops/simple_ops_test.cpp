@@ -278,7 +278,8 @@ TEST(Contacts, OfAClearedSpanBearNowhere) {
     contacts.edits.push_back({ContactEdit::Kind::kClear, 0, part, 0.0, 1.99});
   }
   OpScene scene{contacts};
-  const auto out = scene.run(apply_contacts, noisy_walk(1));
+  const auto out = scene.run(
+      apply_contacts, *make_edit_state(testing::synthetic_walk(240, 120.0).motion));
   ASSERT_TRUE(out);
   EXPECT_TRUE(out->contacts.feet[0].stance.empty());
   EXPECT_FALSE(out->contacts.feet[1].stance.empty());
