@@ -5,101 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <span>
-
-#include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 
 #include "core/base/assert.h"
-#include "core/base/quantile.h"
-#include "core/pose.h"
-#include "retarget/body/foot_shape.h"
-#include "retarget/body/rotation_from_t_pose.h"
+#include "retarget/contacts/foot_paths.h"
 
 namespace marey::retarget {
 namespace {
 
-// The back of the heel, at the ankle's height, and the rear end of the sole: distances
-// behind the ankle in lengths from ankle to ball. The former is that of a marker on a
-// running shoe, chosen on one run and one drop jump; the latter is the full extent of the
-// heel of foot_shape.h.
-constexpr double kBackInBall = 0.7;
-constexpr double kHeelInBall = kHeelInFoot * (1.0 + kToesInBall);
 // The fastest instant of the swing lies within this before the strike. [s]
 constexpr double kSwing_s = 0.4;
-// The belt's velocity is that of most low frames, within this.
-constexpr double kSameBelt_legs_per_s = 0.35;
+// A foot whose heel was never faster than this made no step.
+constexpr double kMinSwing_legs_per_s = 0.7;
 // A part is on the floor if it is lower than this above its lowest height of the stance.
 constexpr double kOnFloor_legs = 0.045;
-
-enum EdgePoint : std::size_t {
-  kBackPoint,
-  kHeelPoint,
-  kBallPoint,
-  kTipPoint,
-  kEdgePoints
-};
-
-// One point of a foot over the motion. Velocities are slopes of fitted lines.
-struct EdgePath {
-  std::vector<glm::dvec3> p_in_world;
-  std::vector<double> across_m_per_s;  // Horizontal speed relative to the floor.
-  std::vector<double> up_m_per_s;
-};
-
-using EdgePaths = std::array<std::array<EdgePath, kEdgePoints>, 2>;
-
-void fit_velocities(double hz,
-                    double smoothing_s,
-                    const glm::dvec3& floor_velocity,
-                    EdgePath& path) {
-  const int count = static_cast<int>(path.p_in_world.size());
-  const int half = std::max(1, static_cast<int>(std::lround(0.5 * smoothing_s * hz)));
-  for (int t = 0; t < count; ++t) {
-    const int first = std::max(0, t - half);
-    const int last = std::min(count - 1, t + half);
-    const double middle = 0.5 * (first + last);
-    glm::dvec3 slope(0.0);
-    double weight = 0.0;
-    for (int k = first; k <= last; ++k) {
-      slope += (k - middle) * path.p_in_world[static_cast<std::size_t>(k)];
-      weight += (k - middle) * (k - middle);
-    }
-    if (weight > 0.0) slope *= hz / weight;
-    const glm::dvec3 relative = slope - floor_velocity;
-    path.across_m_per_s.push_back(std::hypot(relative.x, relative.z));
-    path.up_m_per_s.push_back(slope.y);
-  }
-}
-
-EdgePaths edge_paths(const Motion& motion, const BodyMap& map) {
-  EdgePaths paths;
-  std::vector<RigidTransform> world_from_joint(motion.skeleton.joints.size());
-  for (const Pose& pose : motion.poses) {
-    world_from_joints(motion.skeleton, pose, world_from_joint);
-    for (std::size_t side = 0; side < 2; ++side) {
-      const FootMap& foot = map.feet[side];
-      const JointIndex ankle = map.leg(static_cast<int>(side)).end;
-      const auto toes =
-          map.joint_of[index(side == 0 ? HumanBone::kLeftToes : HumanBone::kRightToes)];
-      const glm::dquat turn = rotation_from_t_pose(map, world_from_joint, ankle);
-      const glm::dquat toes_turn =
-          toes ? rotation_from_t_pose(map, world_from_joint, *toes) : turn;
-      const glm::dvec3 at = world_from_joint[index(ankle)].translation;
-      const glm::dvec3 along = foot.ball_from_ankle_in_t_pose;
-      const double length_m = std::hypot(along.x, along.z);
-      const glm::dvec3 back(0.0, 0.0, -kBackInBall * length_m);
-      const glm::dvec3 heel(0.0, -foot.ankle_height_m, -kHeelInBall * length_m);
-      const glm::dvec3 ball = at + turn * along;
-      paths[side][kBackPoint].p_in_world.push_back(at + turn * back);
-      paths[side][kHeelPoint].p_in_world.push_back(at + turn * heel);
-      paths[side][kBallPoint].p_in_world.push_back(ball);
-      paths[side][kTipPoint].p_in_world.push_back(
-          ball + toes_turn * foot.tip_from_ball_in_t_pose);
-    }
-  }
-  return paths;
-}
 
 // All that the rules need: lengths in metres, times in frames.
 struct EdgeScene {
@@ -110,6 +28,7 @@ struct EdgeScene {
   double strike_height_m;
   double strike_speed;  // Share of the swing's.
   double toe_off_speed_m_per_s;
+  double min_swing_m_per_s;
   double flight_height_m;
   double on_floor_m;
 
@@ -149,8 +68,11 @@ std::optional<EdgeAt> strike_by_height(const EdgeScene& scene,
     const int low = scene.lowest(
         side, point, stance_first - scene.search, stance_first + scene.search);
     const double level_m = scene.height_m(side, point, low) + scene.strike_height_m;
+    // Back to where the point is clearly higher, then forward to the level: noise on the
+    // floor is no flight.
     int t = low;
-    while (t > 0 && scene.height_m(side, point, t - 1) < level_m) --t;
+    while (t > 0 && scene.height_m(side, point, t) < level_m + scene.strike_height_m) --t;
+    while (t < low && scene.height_m(side, point, t) >= level_m) ++t;
     if (t == 0) continue;
     const double frame = passing(
         t, scene.height_m(side, point, t - 1), scene.height_m(side, point, t), level_m);
@@ -192,7 +114,9 @@ std::optional<double> slowing(const EdgeScene& scene,
   const int low =
       scene.lowest(side, point, stance_first - scene.search, stance_first + scene.search);
   const double on_floor_m = scene.height_m(side, point, low) + scene.on_floor_m;
-  const double slow = scene.strike_speed * swing_speed(scene, path, stance_first);
+  const double swing = swing_speed(scene, path, stance_first);
+  if (swing < scene.min_swing_m_per_s) return std::nullopt;
+  const double slow = scene.strike_speed * swing;
   const auto rests = [&](int t) {
     return speed(t) < slow && scene.height_m(side, point, t) < on_floor_m;
   };
@@ -265,12 +189,7 @@ ContactEdges edges_of(const Motion& motion,
                       const ContactEdgeOptions& options) {
   ContactEdges out;
   out.floor_velocity_in_world = floor_velocity;
-  EdgePaths paths = edge_paths(motion, map);
-  for (auto& foot : paths) {
-    for (EdgePath& path : foot) {
-      fit_velocities(motion.rate.hz, options.smoothing_s, floor_velocity, path);
-    }
-  }
+  const EdgePaths paths = edge_paths(motion, map, options.smoothing_s, floor_velocity);
   const double leg_m = map.leg_length_m;
   const EdgeScene scene{paths,
                         motion.rate.hz,
@@ -279,6 +198,7 @@ ContactEdges edges_of(const Motion& motion,
                         options.strike_height_legs * leg_m,
                         options.strike_speed_share,
                         options.toe_off_speed_legs_per_s * leg_m,
+                        kMinSwing_legs_per_s * leg_m,
                         options.flight_height_legs * leg_m,
                         kOnFloor_legs * leg_m};
   for (std::size_t side = 0; side < 2; ++side) {
@@ -294,46 +214,16 @@ ContactEdges edges_of(const Motion& motion,
   return out;
 }
 
-// Returns the commonest horizontal velocity of the balls while they are low: the one with
-// most others within the tolerance. nullopt if it is not that of most of them.
-std::optional<glm::dvec3> belt_velocity(const Motion& motion, const BodyMap& map) {
-  constexpr double kLow = 0.35;           // Share of the frames that are low.
-  constexpr double kMost = 0.5;           // Share of low frames on the belt.
-  constexpr std::size_t kMaxTried = 400;  // Bounds the cost.
-  const EdgePaths paths = edge_paths(motion, map);
-  std::vector<glm::dvec2> low;
-  for (const auto& foot : paths) {
-    const auto& p = foot[kBallPoint].p_in_world;
-    if (p.size() < 3) return std::nullopt;
-    std::vector<double> heights;
-    for (const glm::dvec3& at : p) heights.push_back(at.y);
-    const double level_m = quantile(heights, kLow);
-    for (std::size_t t = 1; t + 1 < p.size(); ++t) {
-      if (p[t].y > level_m) continue;
-      const glm::dvec3 v = 0.5 * motion.rate.hz * (p[t + 1] - p[t - 1]);
-      low.emplace_back(v.x, v.z);
-    }
+// Moves the ends of the runs within the stance `from` to those of `to`.
+void move_runs(const FrameRange& from,
+               const FrameRange& to,
+               std::vector<FrameRange>& runs) {
+  for (FrameRange& run : runs) {
+    if (run.last < from.first || run.first > from.last) continue;
+    run.first = run.first == from.first ? to.first : std::max(run.first, to.first);
+    run.last = run.last == from.last ? to.last : std::min(run.last, to.last);
   }
-  const double same = kSameBelt_legs_per_s * map.leg_length_m;
-  const std::size_t step = std::max<std::size_t>(1, low.size() / kMaxTried);
-  std::size_t most = 0;
-  glm::dvec2 mean(0.0);
-  for (std::size_t i = 0; i < low.size(); i += step) {
-    std::size_t near = 0;
-    glm::dvec2 sum(0.0);
-    for (const glm::dvec2& v : low) {
-      if (glm::distance(v, low[i]) > same) continue;
-      ++near;
-      sum += v;
-    }
-    if (near <= most) continue;
-    most = near;
-    mean = sum / static_cast<double>(near);
-  }
-  if (static_cast<double>(most) < kMost * static_cast<double>(low.size())) {
-    return std::nullopt;
-  }
-  return glm::dvec3(mean.x, 0.0, mean.y);
+  std::erase_if(runs, [](const FrameRange& run) { return run.first > run.last; });
 }
 
 bool has_stance(const Contacts& contacts) {
@@ -368,6 +258,40 @@ ContactEdges find_contact_edges(const Motion& motion,
   const Contacts moving = detect_contacts(on_belt, map);
   if (!has_stance(moving)) return {};
   return edges_of(motion, map, moving, *belt, options);
+}
+
+void move_to_edges(const ContactEdges& edges, FrameRate rate, Contacts& contacts) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    FootContacts& foot = contacts.feet[side];
+    MAREY_ASSERT(edges.feet[side].size() == foot.stance.size());
+    // From the last to the first: the stance after has moved already.
+    int next_first = contacts.frame_count + 1;
+    for (std::size_t i = foot.stance.size(); i-- > 0;) {
+      const FrameRange from = foot.stance[i];
+      const StanceEdges& found = edges.feet[side][i];
+      FrameRange to = from;
+      if (found.strike) {
+        to.first = static_cast<int>(std::ceil(found.strike->time_s * rate.hz));
+        // Not into the frames of the stance before, nor into those next to it.
+        const int free = i > 0 ? foot.stance[i - 1].last + 2 : 0;
+        to.first = std::clamp(to.first, std::min(free, from.first), from.last);
+      }
+      if (found.toe_off) {
+        to.last = static_cast<int>(std::floor(found.toe_off->time_s * rate.hz));
+        to.last = std::max(from.last, std::min(to.last, next_first - 2));
+      }
+      move_runs(from, to, foot.heel);
+      move_runs(from, to, foot.ball);
+      foot.stance[i] = to;
+      next_first = to.first;
+      std::erase_if(foot.heel_up, [&](FrameRange& run) {
+        if (run.last >= from.first && run.first <= from.last) {
+          run.first = std::max(run.first, to.first);
+        }
+        return run.first > run.last;
+      });
+    }
+  }
 }
 
 }  // namespace marey::retarget

@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/base/frame_range.h"
+#include "core/base/time.h"
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
 #include "retarget/contacts/detect_contacts.h"
@@ -95,5 +96,12 @@ struct ContactEdgeOptions {
 [[nodiscard]] ContactEdges find_contact_edges(const Motion& motion,
                                               const BodyMap& map,
                                               const ContactEdgeOptions& options = {});
+
+/// Moves the edges of the stances to these: the first frame at or after the strike, the
+/// last frame at or before toe-off. The heel or ball contact that begins or ends the
+/// stance moves with it. A stance keeps at least one of its frames, and a frame between
+/// two stances.
+/// Precondition: `edges` are those of `contacts`, which are of a motion at that rate.
+void move_to_edges(const ContactEdges& edges, FrameRate rate, Contacts& contacts);
 
 }  // namespace marey::retarget
