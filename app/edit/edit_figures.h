@@ -6,7 +6,7 @@
 
 namespace marey::app {
 
-/// What an edit did to one motion, measured on the result by forward kinematics.
+/// Figures of one edited motion, measured on the result by forward kinematics.
 struct EditFigures {
   std::string name;
   int frames = 0;

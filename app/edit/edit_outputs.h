@@ -20,7 +20,7 @@ namespace marey::app {
 
 struct EditOutput {
   std::filesystem::path out;          ///< Folder.
-  std::vector<MotionFormat> formats;  ///< Empty: npz, bvh, and what the body allows.
+  std::vector<MotionFormat> formats;  ///< Empty: all formats that the body allows.
 };
 
 /// Returns the names of the results: that of the recipe, with .1, .2 ... if there are

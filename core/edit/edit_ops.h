@@ -53,8 +53,8 @@ enum class CutoffRule { kGiven, kYu, kWinter };
 /// Removes noise.
 struct FilterOp {
   FilterMethod method = FilterMethod::kGcvSpline;
-  int order = 2;                            ///< Of the spline: 2 is cubic, 3 is quintic.
-  CutoffRule cutoff = CutoffRule::kWinter;  ///< Of the Butterworth filter.
+  int order = 2;  ///< Order of the spline: 2 is cubic, 3 is quintic.
+  CutoffRule cutoff = CutoffRule::kWinter;  ///< For kButterworth.
   double cutoff_hz = 0.0;                   ///< For kGiven.
   bool keep_contacts = true;                ///< Standing feet stay where they stood.
 };
@@ -67,7 +67,7 @@ struct LevelOp {
 
 /// Moves and turns the whole motion about the vertical.
 struct PlaceOp {
-  std::optional<glm::dvec2> position_xz_m;  ///< Of the root at `at`. World X and Z.
+  std::optional<glm::dvec2> position_xz_m;  ///< Place of the root at `at`. World X and Z.
   /// Direction of travel over the span, or of the pelvis if the motion stays in place: 0
   /// is +Z, a quarter turn is +X.
   std::optional<double> heading_rad;
@@ -94,8 +94,8 @@ struct RetimeKnot {
 struct RetimeOp {
   std::vector<RetimeKnot> knots;     ///< Ascending in both times.
   std::optional<double> speed;       ///< 2 is twice as fast.
-  std::optional<double> duration_s;  ///< Of the result.
-  std::optional<double> rate_hz;     ///< Of the result; nullopt: as before.
+  std::optional<double> duration_s;  ///< Duration of the result.
+  std::optional<double> rate_hz;     ///< Rate of the result; nullopt: as before.
 };
 
 enum class CycleDrift {
@@ -130,7 +130,7 @@ struct EditObject {
   glm::dvec3 min_in_world{0.0};
   glm::dvec3 max_in_world{0.0};
 };
-/// Adds a constraint, or those that the motion shows.
+/// Adds a constraint, or the constraints that are detected in the motion.
 struct ConstrainOp {
   std::optional<Constraint> constraint;
   std::optional<Moment> from;  ///< Start of the constraint, by an annotation or a frame.
@@ -155,7 +155,7 @@ struct PoseOp {
 struct OffsetOp {
   HumanBone bone = HumanBone::kHips;
   std::optional<glm::dquat> rotation;  ///< In the frame of the bone's parent.
-  std::optional<glm::dvec3> moved_m;   ///< Of the root in the world. [m]
+  std::optional<glm::dvec3> moved_m;   ///< Translation of the root in the world. [m]
 };
 
 /// Changes the speed by a constant factor: 2 is twice as fast.
@@ -236,9 +236,9 @@ inline constexpr int kEditOpVersion = 1;
 /// One operation of a recipe.
 struct EditOp {
   EditOpParameters parameters;
-  int version = 1;  ///< What a version computes never changes.
+  int version = 1;  ///< The results of a version never change.
   bool off = false;
-  EditSpan span{};  ///< Where it has an effect.
+  EditSpan span{};  ///< Part of the motion that is changed.
   /// Fades of the effect before and after the span, with continuous speed and
   /// acceleration. [s]
   double blend_s = 0.0;

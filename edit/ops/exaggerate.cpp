@@ -27,7 +27,7 @@ constexpr int kMinFrames = 8;
 constexpr double kExaggerateShown_m = 1e-4;
 constexpr double kExaggerateToMm = 1e3;
 
-/// What replaces the lower low-pass version if there is no lower limit.
+/// Replacement of the lower low-pass version if there is no lower limit.
 enum class Baseline { kMean, kLine };
 
 Status check_band(const ExaggerateOp& op, const EditState& state) {

@@ -63,7 +63,7 @@ double spline_at(const std::vector<double>& values,
              6.0;
 }
 
-/// Where a new frame lies between two old ones.
+/// Place of a new frame between two old ones.
 struct Between {
   std::size_t before = 0;
   double share = 0.0;  ///< 0: the old frame itself.

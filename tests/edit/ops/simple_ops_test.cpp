@@ -53,7 +53,7 @@ TEST(Cut, KeepsTheFramesOfItsSpanToTheBit) {
   }
 }
 
-TEST(Cut, OfTheWholeMotionIsTheMotion) {
+TEST(Cut, KeepsTheWholeMotionWithoutASpan) {
   EditState state = noisy_walk(2);
   state.motion.first_frame = 17;
   OpScene scene{CutOp{}};
@@ -128,7 +128,7 @@ TEST(Mirror, ExchangesTheSidesOfNames) {
   EXPECT_EQ(mirrored_name("left.strike"), "right.strike");
 }
 
-TEST(Place, PutsTheHipsAndTheTravelWhereTheyAreAsked) {
+TEST(Place, MovesTheHipsAndTheTravelAsRequested) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     PlaceOp place;
     place.position_xz_m = glm::dvec2(3.0, -2.0);
@@ -272,7 +272,7 @@ TEST(Annotate, DrawsACurveThroughItsKeys) {
   EXPECT_DOUBLE_EQ(out->annotations.curves[0].values[200], 1.0);
 }
 
-TEST(Contacts, OfAClearedSpanBearNowhere) {
+TEST(Contacts, AreRemovedFromAClearedSpan) {
   ContactsOp contacts;
   for (const FootPart part : {FootPart::kHeel, FootPart::kBall}) {
     contacts.edits.push_back({ContactEdit::Kind::kClear, 0, part, 0.0, 1.99});
