@@ -238,13 +238,13 @@ struct EditOp {
   EditOpParameters parameters;
   int version = 1;  ///< What a version computes never changes.
   bool off = false;
-  EditSpan span;  ///< Where it has an effect.
+  EditSpan span{};  ///< Where it has an effect.
   /// Fades of the effect before and after the span, with continuous speed and
   /// acceleration. [s]
   double blend_s = 0.0;
-  std::vector<EditGroup> groups;  ///< Empty: the whole body.
-  std::string why;                ///< Free text.
-  int line = 0;                   ///< In the recipe's file; 0: unknown.
+  std::vector<EditGroup> groups{};  ///< Empty: the whole body.
+  std::string why{};                ///< Free text.
+  int line = 0;                     ///< In the recipe's file; 0: unknown.
 };
 
 /// Returns the name of an operation in recipes, without its version: "scale_time".

@@ -40,7 +40,7 @@ struct FindLoopsOptions {
   double min_apart_s = 0.1;
   /// A pair of strikes of the same foot comes before a pair without that is at most this
   /// much better: its feet are placed by the footprints of whole stances.
-  double strike_preference = 1.25;
+  double strike_preference = 1.0;
 };
 
 /// The range of cycle lengths that find_loops() searches.
