@@ -210,11 +210,11 @@ void expect_walk_under_noise(double noise_m, double max_median_ms, double max_p9
   EXPECT_LT(quantile(off_ms, 0.9), max_p90_ms);
 }
 
-TEST(ContactEdges, OfAWalkMoveLittleUnderNoiseOf1mm) {
+TEST(ContactEdges, MoveLittleInAWalkUnderNoiseOf1mm) {
   expect_walk_under_noise(0.001, 2.5, 7.0);
 }
 
-TEST(ContactEdges, OfAWalkMoveByAFrameUnderNoiseOf3mm) {
+TEST(ContactEdges, MoveByAFrameInAWalkUnderNoiseOf3mm) {
   expect_walk_under_noise(0.003, 6.0, 20.0);
 }
 
@@ -250,7 +250,7 @@ TEST(ContactEdges, AreFoundOnATreadmill) {
   }
 }
 
-TEST(ContactEdges, OfABodyThatNeverLeavesTheFloorAreAbsent) {
+TEST(ContactEdges, AreAbsentIfTheBodyNeverLeavesTheFloor) {
   Motion motion;
   motion.skeleton = testing::child();
   motion.rate.hz = 60.0;
@@ -263,7 +263,7 @@ TEST(ContactEdges, OfABodyThatNeverLeavesTheFloorAreAbsent) {
   }
 }
 
-TEST(ContactEdges, OfFreeFallAreAbsent) {
+TEST(ContactEdges, AreAbsentInFreeFall) {
   Motion motion;
   motion.skeleton = testing::giant();
   motion.rate.hz = 60.0;
@@ -297,13 +297,11 @@ void expect_within(const std::vector<FrameRange>& inner,
   for (std::size_t t = 0; t < count; ++t) EXPECT_LE(in[t], out[t]) << "frame " << t;
 }
 
-TEST(ContactEdges, ExtendDetectedContactsIfTheCallerWantsLoads) {
+TEST(ContactEdges, ExtendContactsAtRestToLoadedContacts) {
   const Motion walk = walk_at(120.0);
   const BodyMap map = mapped(walk.skeleton);
   const Contacts rest = detect_contacts(walk, map);
-  DetectContactsOptions options;
-  options.edges = ContactEdgeRule::kLoad;
-  const Contacts load = detect_contacts(walk, map, options);
+  const Contacts load = detect_loaded_contacts(walk, map);
   const ContactEdges edges = find_contact_edges(walk, map, rest);
   for (std::size_t side = 0; side < 2; ++side) {
     const FootContacts& foot = load.feet[side];
