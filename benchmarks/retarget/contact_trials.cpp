@@ -91,7 +91,6 @@ Status read_table_edges(const std::filesystem::path& file,
     for (const LoadInterval& one : loaded(load)) {
       for (const bool is_strike : {true, false}) {
         const double at_s = is_strike ? one.first_s : one.last_s;
-        if (at_s < source.from_s || at_s > source.to_s) continue;
         trial.edges.push_back({at_s - start_s, side, is_strike});
       }
     }
@@ -164,7 +163,7 @@ void add_plate_edges(const recordings::ForcePlates& plates,
   std::vector<double> forces;
   for (const auto& sample : plate.samples) forces.push_back(sample.force_in_world.y);
   if (forces.empty()) return;
-  // The plate's own offset: the median of what it reads while nothing stands on it.
+  // The plate's own offset: its median force while nothing stands on it.
   constexpr double kUnloaded_N = 40.0;
   std::vector<double> idle;
   for (const double force : forces) {
@@ -195,96 +194,62 @@ void add_plate_edges(const recordings::ForcePlates& plates,
   }
 }
 
+// A walk with the plates of its own C3D.
+ContactSource walk_of(const char* name, const char* file, bool is_tuned = false) {
+  return {name, "walk", is_tuned, file, {}, "", {}};
+}
+
 }  // namespace
 
-const std::vector<ContactSource>& contact_sources() {
-  static const std::string kRajagopal = "opensim-models/Rajagopal/ExpData/";
-  static const std::string kHamner = "opensim-models/Hamner/";
-  static const std::string kDrop = "nimblephysics/osim/LaiArnoldSubject5/";
-  static const std::string kShared = "opensim-core/Tests/shared/";
-  static const std::string kC3d = "c3d_org_samples/";
-  static const std::vector<ContactSource> kSources{
+std::vector<ContactSource> contact_sources() {
+  const std::string rajagopal = "opensim-models/Rajagopal/ExpData/";
+  const std::string hamner = "opensim-models/Hamner/";
+  const std::string drop = "nimblephysics/osim/LaiArnoldSubject5/";
+  return {
       {"Rajagopal run",
        "run",
        true,
-       kRajagopal + "motion_capture_run.trc",
-       {kRajagopal + "static_run.trc"},
-       kRajagopal + "grf_run.mot",
+       rajagopal + "motion_capture_run.trc",
+       {rajagopal + "static_run.trc"},
+       rajagopal + "grf_run.mot",
        {"L_ground_force_vy", "R_ground_force_vy"}},
       {"Hamner run",
        "run",
        false,
-       kHamner + "subject02_running.trc",
-       {kHamner + "subject02_static.trc"},
-       kHamner + "subject02_running_grf.mot",
+       hamner + "subject02_running.trc",
+       {hamner + "subject02_static.trc"},
+       hamner + "subject02_running_grf.mot",
        {"1_ground_force_vy", "ground_force_vy"}},
-      {"Rajagopal walk",
-       "walk",
-       true,
-       kRajagopal + "motion_capture_walk.trc",
-       {kRajagopal + "static_walk_1.trc"},
-       kRajagopal + "grf_walk.mot",
-       {"ground_force_l_vy", "ground_force_r_vy"}},
-      {"walking2", "walk", true, kShared + "walking2.c3d", {}, "", {}},
-      {"walking5", "walk", false, kShared + "walking5.c3d", {}, "", {}},
-      {"Qualisys", "walk", false, "ezc3d/Qualisys.c3d", {}, "", {}},
-      {"Vicon", "walk", false, "ezc3d/Vicon.c3d", {}, "", {}},
-      {"BMClab Gait", "walk", false, "bmclab/Gait.c3d", {}, "", {}},
-      {"MAC Walk1",
-       "walk",
-       false,
-       kC3d + "sample_00/Motion Analysis Corporation/Walk1.c3d",
-       {},
-       "",
-       {}},
-      {"MAC Sample_Jump2",
-       "jump",
-       false,
-       kC3d + "sample_00/Motion Analysis Corporation/Sample_Jump2.c3d",
-       {},
-       "",
-       {}},
-      {"IST Gait",
-       "walk",
-       false,
-       kC3d + "sample_00/Innovative Sports Training/Gait with EMG.c3d",
-       {},
-       "",
-       {}},
-      {"NexGen",
-       "walk",
-       false,
-       kC3d + "sample_00/NexGen Ergonomics/test1.c3d",
-       {},
-       "",
-       {}},
-      {"pyCGM2",
-       "walk",
-       false,
-       kC3d + "sample_00/Vicon Motion Systems/pyCGM2 lower limb CGM24 Walking01.c3d",
-       {},
-       "",
-       {}},
-      {"Eb015pr", "walk", false, kC3d + "sample_01/Eb015pr.c3d", {}, "", {}},
-      {"gait-pig", "walk", false, kC3d + "sample_03/gait-pig.c3d", {}, "", {}},
-      {"MotionMonitor",
-       "walk",
-       false,
-       kC3d + "sample_24/MotionMonitorC3D.c3d",
-       {},
-       "",
-       {}},
-      {"Hybrid 1", "walk", false, kC3d + "sample_26/Walking_Hybrid_1_1.c3d", {}, "", {}},
-      {"Hybrid 2", "walk", false, kC3d + "sample_26/Walking_Hybrid_2.c3d", {}, "", {}},
       {"DJ1",
        "jump",
        true,
-       kDrop + "DJ1.trc",
-       {kDrop + "DJ2.trc"},
-       kDrop + "DJ1_forces.mot",
+       drop + "DJ1.trc",
+       {drop + "DJ2.trc"},
+       drop + "DJ1_forces.mot",
        {"L_ground_force_vy", "R_ground_force_vy"}},
+      {"Rajagopal walk",
+       "walk",
+       true,
+       rajagopal + "motion_capture_walk.trc",
+       {rajagopal + "static_walk_1.trc"},
+       rajagopal + "grf_walk.mot",
+       {"ground_force_l_vy", "ground_force_r_vy"}},
+      walk_of("walking2", "opensim-core/Tests/shared/walking2.c3d", true),
+      walk_of("walking5", "opensim-core/Tests/shared/walking5.c3d"),
+      walk_of("Qualisys", "ezc3d/Qualisys.c3d"),
+      walk_of("Hybrid 1", "c3d_org_samples/sample_26/Walking_Hybrid_1_1.c3d"),
+      walk_of("Hybrid 2", "c3d_org_samples/sample_26/Walking_Hybrid_2.c3d"),
+      walk_of("pyCGM2",
+              "c3d_org_samples/sample_00/Vicon Motion Systems/"
+              "pyCGM2 lower limb CGM24 Walking01.c3d"),
+      walk_of("IST gait",
+              "c3d_org_samples/sample_00/Innovative Sports Training/Gait with EMG.c3d"),
+      walk_of("gait-pig", "c3d_org_samples/sample_03/gait-pig.c3d"),
+      walk_of("BMClab gait", "bmclab/Gait.c3d"),
+      walk_of("MAC Walk1",
+              "c3d_org_samples/sample_00/Motion Analysis Corporation/Walk1.c3d"),
+      walk_of("Eb015pr", "c3d_org_samples/sample_01/Eb015pr.c3d"),
   };
-  return kSources;
 }
 
 Result<ContactTrial> read_contact_trial(const std::filesystem::path& mocap,

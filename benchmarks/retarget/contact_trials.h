@@ -45,14 +45,10 @@ struct ContactSource {
   std::string forces;
   /// Vertical force of the left and of the right foot.
   std::array<std::string, 2> columns;
-  /// Times on the recording's clock in which the plates bore the whole weight. Edges
-  /// outside are left out. [s]
-  double from_s = 0.0;
-  double to_s = 1e9;
 };
 
 /// Returns all recordings that have plates and markers of both feet.
-[[nodiscard]] const std::vector<ContactSource>& contact_sources();
+[[nodiscard]] std::vector<ContactSource> contact_sources();
 
 /// Reads a recording and fits the person to its markers. The edges are the instants at
 /// which the vertical force of a foot, interpolated between samples, passes kLoaded_N.

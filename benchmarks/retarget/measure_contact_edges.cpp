@@ -5,11 +5,16 @@
 //   measure_contact_edges [MOCAP_FOLDER] [--all]
 // --all prints every edge.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <map>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "benchmarks/retarget/contact_trials.h"
 #include "core/base/quantile.h"

@@ -294,4 +294,14 @@ void move_to_edges(const ContactEdges& edges, FrameRate rate, Contacts& contacts
   }
 }
 
+Contacts detect_loaded_contacts(const Motion& motion,
+                                const BodyMap& map,
+                                const DetectContactsOptions& options,
+                                const ContactEdgeOptions& edge_options) {
+  Contacts contacts = detect_contacts(motion, map, options);
+  move_to_edges(
+      find_contact_edges(motion, map, contacts, edge_options), motion.rate, contacts);
+  return contacts;
+}
+
 }  // namespace marey::retarget

@@ -104,4 +104,15 @@ struct ContactEdgeOptions {
 /// Precondition: `edges` are those of `contacts`, which are of a motion at that rate.
 void move_to_edges(const ContactEdges& edges, FrameRate rate, Contacts& contacts);
 
+/// Detects contacts that last from the strike to toe-off, on a floor at rest: applies
+/// move_to_edges() to those of detect_contacts(). A foot still moves in the first and the
+/// last frames of such a contact. To plant feet, use the contacts of detect_contacts().
+/// Linear in frames.
+/// Precondition: as detect_contacts().
+[[nodiscard]] Contacts detect_loaded_contacts(
+    const Motion& motion,
+    const BodyMap& map,
+    const DetectContactsOptions& options = {},
+    const ContactEdgeOptions& edge_options = {});
+
 }  // namespace marey::retarget

@@ -12,7 +12,6 @@
 #include "core/base/assert.h"
 #include "core/base/frame_range.h"
 #include "core/pose.h"
-#include "retarget/contacts/contact_edges.h"
 
 namespace marey::retarget {
 namespace {
@@ -272,9 +271,6 @@ Contacts detect_contacts(const Motion& motion,
     if (toes) {
       foot.heel_up = heel_up_runs(*paths[side], foot, map, motion.rate.hz, options);
     }
-  }
-  if (options.edges == ContactEdgeRule::kLoad) {
-    move_to_edges(find_contact_edges(motion, map, out), motion.rate, out);
   }
   return out;
 }

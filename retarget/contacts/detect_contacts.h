@@ -30,14 +30,6 @@ struct Contacts {
   std::array<FootContacts, 2> feet;  ///< Left, right.
 };
 
-/// Meaning of the first and the last frame of a stance.
-enum class ContactEdgeRule : unsigned char {
-  kRest,  ///< The foot is at rest: it can be planted without a change of its motion.
-  /// The foot bears load: from the strike to toe-off (contact_edges.h). It still moves in
-  /// the first and the last frames.
-  kLoad,
-};
-
 /// Lengths and speeds are in leg lengths, so that the thresholds hold for bodies of any
 /// size.
 struct DetectContactsOptions {
@@ -53,7 +45,6 @@ struct DetectContactsOptions {
   double min_contact_s = 0.06;      ///< Shorter contacts are dropped.
   double max_gap_s = 0.05;          ///< Shorter interruptions are noise.
   double smoothing_s = 0.06;        ///< Span of the line fits that give the speeds.
-  ContactEdgeRule edges = ContactEdgeRule::kRest;
 };
 
 /// Detects when each foot stands, from the motion alone: the ankle and the toe joint are

@@ -45,7 +45,7 @@ std::optional<Motion> fitted_motion(const std::vector<fs::path>& files) {
 // A drop jump between two plates at 2 kHz. Times at which the vertical force of each foot
 // passes 20 N, left and right: landing, take-off. The second landing is not judged: the
 // recording ends 0.1 s after it. Markers at 100 Hz.
-TEST(PlateEdges, OfADropJumpAreFoundWithinAFrame) {
+TEST(PlateEdges, AreFoundInADropJumpWithinAFrame) {
   const fs::path folder =
       testing::shared_data() / "mocap" / "nimblephysics" / "osim" / "LaiArnoldSubject5";
   if (!fs::exists(folder / "DJ1.trc")) GTEST_SKIP() << "the recording is not there";

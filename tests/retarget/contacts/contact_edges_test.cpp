@@ -297,13 +297,11 @@ void expect_within(const std::vector<FrameRange>& inner,
   for (std::size_t t = 0; t < count; ++t) EXPECT_LE(in[t], out[t]) << "frame " << t;
 }
 
-TEST(ContactEdges, ExtendDetectedContactsIfTheCallerWantsLoads) {
+TEST(ContactEdges, ExtendContactsAtRestToLoadedContacts) {
   const Motion walk = walk_at(120.0);
   const BodyMap map = mapped(walk.skeleton);
   const Contacts rest = detect_contacts(walk, map);
-  DetectContactsOptions options;
-  options.edges = ContactEdgeRule::kLoad;
-  const Contacts load = detect_contacts(walk, map, options);
+  const Contacts load = detect_loaded_contacts(walk, map);
   const ContactEdges edges = find_contact_edges(walk, map, rest);
   for (std::size_t side = 0; side < 2; ++side) {
     const FootContacts& foot = load.feet[side];
