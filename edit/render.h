@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <list>
 #include <optional>
 #include <span>
@@ -56,13 +57,18 @@ struct RenderOptions {
   std::span<const std::string> keys;
   EditCache* cache = nullptr;
   std::string recipe_file;  ///< For the place of errors.
+  /// Called before each operation; true stops the rendering with an error. May be empty.
+  std::function<bool()> is_cancelled;
 };
 
 /// Applies the operations of a recipe, in their order, to its first source. Operations
 /// that are off are absent. Pure: same recipe and inputs, same result, to the bit.
 /// With a cache, only the operations after the last known result are applied.
 ///
-/// Errors (bad input), with the recipe's file and the operation's line: apply_op()'s.
+/// `progress` receives the number of operations that are done, known results included.
+///
+/// Errors (bad input), with the recipe's file and the operation's line: apply_op()'s;
+/// RenderOptions::is_cancelled returned true.
 /// Precondition: `inputs` has all sources and avatars that the recipe names; as many keys
 /// as operations, or none.
 [[nodiscard]] Result<Rendered> render(const EditRecipe& recipe,
