@@ -145,10 +145,11 @@ void EditWorker::do_render(const Render& task) {
   };
   if (const Status ok = read_files(task.recipe); !ok) return fail(ok.error(), {});
   const std::vector<std::string> keys = edit_keys(task.recipe, files_);
-  edit::RenderOptions options{.keys = keys,
-                              .cache = &cache_,
-                              .recipe_file = read_.recipe_file,
-                              .is_cancelled = [&] { return is_outdated(task.revision); }};
+  edit::RenderOptions options;
+  options.keys = keys;
+  options.cache = &cache_;
+  options.recipe_file = read_.recipe_file;
+  options.is_cancelled = [&] { return is_outdated(task.revision); };
   const auto report = [&](int done, int total) {
     progress.done = done;
     if (done < total) listener_.on_progress(progress);
@@ -169,13 +170,14 @@ Result<edit::Rendered> EditWorker::rendered(const EditRecipe& recipe,
                                             std::optional<int> until) {
   if (const Status ok = read_files(recipe); !ok) return ok.error();
   const std::vector<std::string> keys = edit_keys(recipe, files_);
-  return edit::render(recipe,
-                      files_.inputs,
-                      {.until = operations(until),
-                       .keys = keys,
-                       .cache = &cache_,
-                       .recipe_file = read_.recipe_file,
-                       .is_cancelled = [this] { return is_outdated(INT_MAX); }});
+  edit::RenderOptions options;
+  options.until = operations(until);
+  options.keys = keys;
+  options.cache = &cache_;
+  options.recipe_file = read_.recipe_file;
+  // Only the end of the worker stops it.
+  options.is_cancelled = [this] { return is_outdated(INT_MAX); };
+  return edit::render(recipe, files_.inputs, options);
 }
 
 void EditWorker::do_task(const PreviewTask& task) {
