@@ -92,7 +92,7 @@ class KeyList {
   std::vector<std::string> keys_;
 };
 
-/// Returns the keys of an operation in a recipe: first those that all operations have.
+/// Returns the keys of an operation in a recipe: common keys first.
 [[nodiscard]] std::vector<std::string> edit_op_keys(const EditOpParameters& parameters);
 
 }  // namespace marey::recordings::recipe

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,7 +32,7 @@ namespace marey::recordings::recipe {
 [[nodiscard]] std::size_t read_choice(TomlReader& in,
                                       std::string_view key,
                                       std::span<const std::string_view> names);
-/// Returns the bone with the name `key`. Mistake: there is none.
+/// Returns the bone with the name `key`. Mistake: unknown name.
 [[nodiscard]] HumanBone read_bone(TomlReader& in, std::string_view key);
 /// Returns the points of a list [[x, z], ...].
 [[nodiscard]] std::vector<glm::dvec2> read_places(TomlReader& in, std::string_view key);

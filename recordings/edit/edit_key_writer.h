@@ -22,8 +22,8 @@
 
 namespace marey::recordings::recipe {
 
-/// Visitor of visit_keys() that writes the keys of a value which differ from their
-/// defaults, and those that have none.
+/// Visitor of visit_keys() that writes a value's keys: needed keys always, others if they
+/// differ from their defaults.
 template <class T>
 class KeyWriter {
  public:

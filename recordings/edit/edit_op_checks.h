@@ -7,8 +7,8 @@
 
 namespace marey::recordings::recipe {
 
-/// Checks keys of an operation against each other, and sets those that follow from
-/// others: "cutoff_hz" without "cutoff" gives the cut-off itself. Mistakes: a list that
+/// Checks keys of an operation against each other, and sets values that follow from other
+/// keys: "cutoff_hz" without "cutoff" gives the cut-off itself. Mistakes: a list that
 /// does not ascend, keys that exclude each other, none of several keys of which one is
 /// needed.
 void check_op_keys(TomlReader& in, EditOpParameters& parameters);

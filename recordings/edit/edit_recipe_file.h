@@ -21,8 +21,8 @@ namespace marey::recordings {
 /// newer format; a key unknown, missing, of the wrong type or out of range, or two keys
 /// of one meaning; an operation or a version of one that does not exist; no source, two
 /// sources of one id, a `splice` of a source that is not listed; more than 10000
-/// operations; a span that ends before it starts. Whether an operation suits a motion is
-/// decided when it is applied.
+/// operations; a span that ends before it starts. Applying an operation
+/// checks if it suits the motion.
 [[nodiscard]] Result<EditRecipe> parse_edit_recipe(std::string_view text,
                                                    const std::filesystem::path& name);
 
@@ -43,7 +43,7 @@ namespace marey::recordings {
 /// Preconditions: numbers are finite, texts UTF-8, rotations not zero.
 [[nodiscard]] std::string edit_recipe_text(const EditRecipe& recipe);
 
-/// Whether the text of an operation contains its `why`.
+/// Selects if the text of an operation contains its `why`.
 enum class WhyText { kIncluded, kLeftOut };
 
 /// Returns the canonical text of one operation, "[[op]]" and its keys. Without `why` it

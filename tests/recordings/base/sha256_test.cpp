@@ -30,7 +30,7 @@ TEST(Sha256, GivesThePublishedSums) {
   EXPECT_EQ(sha256(std::string(1'000'000, 'a')), kOfAMillion);
 }
 
-TEST(Sha256, OfAFileIsThatOfItsBytes) {
+TEST(Sha256, IsTheSameForAFileAndItsBytes) {
   const testing::ScratchFolder folder;
   // Longer than one piece, and no multiple of one.
   std::string bytes;

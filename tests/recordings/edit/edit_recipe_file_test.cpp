@@ -25,7 +25,7 @@ T op_of(const std::string& do_and_keys) {
     ADD_FAILURE() << "another operation: " << text;
     return T{};
   }
-  // The text of what was read is canonical.
+  // Its text is canonical.
   const Result<EditOp> again = parse_edit_op(edit_op_text(*op), "t");
   EXPECT_TRUE(again) << (again ? "" : again.error().message());
   if (again) {
@@ -236,14 +236,14 @@ TEST(EditRecipeFile, ReadsEveryKeyOfAnnotations) {
 TEST(EditRecipeFile, ReadsAConstraintWithTheWordsOfItsFile) {
   const auto op = op_of<ConstrainOp>(
       "\"constrain@1\"\nadapt = true\n[op.constraint]\ntype = \"Distance\"\n"
-      "name = \"door\"\nsegment = \"rightHand\"\noffset_m = [0.1, 0, 0]\npriority = 3\n"
+      "name = \"grip\"\nsegment = \"rightHand\"\noffset_m = [0.1, 0, 0]\npriority = 3\n"
       "accuracy_m = 0.002\nrange = 4\nstart = \"grasp\"\nstop_frame = 90\n"
       "start_duration_s = 0.3\nstop_duration_s = 0.4\ndistance_m = 0.05\n"
       "position_m = [0.4, 1.1, 0.6]\n");
   EXPECT_TRUE(op.adapt);
   ASSERT_TRUE(op.constraint);
   const Constraint& constraint = *op.constraint;
-  EXPECT_EQ(constraint.id, "door");
+  EXPECT_EQ(constraint.id, "grip");
   EXPECT_EQ(constraint.point.segment, "rightHand");
   EXPECT_EQ(constraint.point.offset_in_t_pose, glm::dvec3(0.1, 0.0, 0.0));
   EXPECT_EQ(constraint.importance, 3.0);

@@ -21,7 +21,7 @@ namespace {
 using marey::testing::random_edit_op;
 using marey::testing::random_edit_recipe;
 
-constexpr std::uint64_t kSeeds = 1000;
+constexpr std::uint64_t kRecipeSeeds = 1000;
 
 EditRecipe parsed_again(const EditRecipe& recipe, std::uint64_t seed) {
   const std::string text = edit_recipe_text(recipe);
@@ -33,7 +33,7 @@ EditRecipe parsed_again(const EditRecipe& recipe, std::uint64_t seed) {
 
 TEST(EditRecipeProperty, TextsAreReadBackAsTheSameText) {
   std::size_t ops = 0;
-  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+  for (std::uint64_t seed = 0; seed < kRecipeSeeds; ++seed) {
     const EditRecipe recipe = random_edit_recipe(seed);
     const EditRecipe read = parsed_again(recipe, seed);
     ASSERT_EQ(edit_recipe_text(read), edit_recipe_text(recipe)) << "seed " << seed;
@@ -55,7 +55,7 @@ TEST(EditRecipeProperty, TextsAreReadBackAsTheSameText) {
 }
 
 TEST(EditRecipeProperty, AnOperationsTextIsReadBackAlone) {
-  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+  for (std::uint64_t seed = 0; seed < kRecipeSeeds; ++seed) {
     const EditOp op = random_edit_op(seed, seed);
     const std::string text = edit_op_text(op);
     const Result<EditOp> read = parse_edit_op(text, "page");
