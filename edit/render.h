@@ -51,14 +51,14 @@ class EditCache {
 
 struct RenderOptions {
   /// Number of operations to apply; nullopt: all.
-  std::optional<std::size_t> until;
+  std::optional<std::size_t> until{};
   /// For each operation a key of itself and of all before it, sources and avatars
   /// included (the SHA-256 of their texts and files); empty: nothing is cached.
-  std::span<const std::string> keys;
+  std::span<const std::string> keys{};
   EditCache* cache = nullptr;
   std::string recipe_file;  ///< For the place of errors.
   /// Called before each operation; true stops the rendering with an error. May be empty.
-  std::function<bool()> is_cancelled;
+  std::function<bool()> is_cancelled{};
 };
 
 /// Applies the operations of a recipe, in their order, to its first source. Operations

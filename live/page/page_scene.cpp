@@ -127,6 +127,11 @@ PageJson file_object(const std::optional<PageFile>& file) {
           {"report", file->report}};
 }
 
+const char* mode_of(const PageScene& scene) {
+  if (scene.edit) return "edit";
+  return scene.file ? "file" : "live";
+}
+
 }  // namespace
 
 std::string scene_json(const PageScene& scene) {
@@ -137,7 +142,7 @@ std::string scene_json(const PageScene& scene) {
        {"version", 1},
        {"revision", scene.revision},
        {"title", scene.title},
-       {"mode", scene.file ? "file" : "live"},
+       {"mode", mode_of(scene)},
        {"rate_hz", scene.rate_hz},
        {"skeletons", array_of(scene.skeletons, skeleton_object)},
        {"cameras", array_of(scene.cameras, camera_object)},

@@ -104,9 +104,10 @@ struct PageFile {
 };
 
 /// Everything that does not change from frame to frame. A scene with `file` is a
-/// recording; one without is live.
+/// recording; one without is live, or the page of marey edit.
 struct PageScene {
-  int revision = 1;  ///< Incremented whenever another member changes.
+  bool edit = false;  ///< The page of marey edit (docs/formats/edit_page.md).
+  int revision = 1;   ///< Incremented whenever another member changes.
   std::string title{};
   double rate_hz = 30.0;
   std::vector<PageSkeleton> skeletons{};
