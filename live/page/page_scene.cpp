@@ -22,22 +22,6 @@ const char* name(PageSkeletonKind kind) {
   return "motion";
 }
 
-const char* name(PageConstraintKind kind) {
-  switch (kind) {
-    case PageConstraintKind::kPosition:
-      return "position";
-    case PageConstraintKind::kDistance:
-      return "distance";
-    case PageConstraintKind::kBox:
-      return "box";
-    case PageConstraintKind::kOrientation:
-      return "orientation";
-    case PageConstraintKind::kSupport:
-      return "support";
-  }
-  return "position";
-}
-
 PageJson joint_object(const Joint& joint) {
   return {{"name", joint.name},
           {"parent", joint.parent ? static_cast<int>(*joint.parent) : -1},
@@ -133,6 +117,22 @@ const char* mode_of(const PageScene& scene) {
 }
 
 }  // namespace
+
+const char* name(PageConstraintKind kind) {
+  switch (kind) {
+    case PageConstraintKind::kPosition:
+      return "position";
+    case PageConstraintKind::kDistance:
+      return "distance";
+    case PageConstraintKind::kBox:
+      return "box";
+    case PageConstraintKind::kOrientation:
+      return "orientation";
+    case PageConstraintKind::kSupport:
+      return "support";
+  }
+  return "position";
+}
 
 std::string scene_json(const PageScene& scene) {
   PageJson points;

@@ -48,6 +48,9 @@ struct PageCamera {
 
 enum class PageConstraintKind { kPosition, kDistance, kBox, kOrientation, kSupport };
 
+/// Returns the word in messages: "position".
+[[nodiscard]] const char* name(PageConstraintKind kind);
+
 struct PageConstraint {
   std::string id{};
   std::size_t skeleton = 0;  ///< Index of the scene's skeleton.
