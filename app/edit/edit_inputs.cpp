@@ -167,7 +167,9 @@ class EditReader {
         file.parent_path(), file.string(), options_.accept_new_sources};
     auto files = EditReader(*recipe, options, std::move(above)).read();
     if (!files) return files.error();
-    auto rendered = edit::render(*recipe, files->inputs, {.recipe_file = file.string()});
+    edit::RenderOptions render;
+    render.recipe_file = file.string();
+    auto rendered = edit::render(*recipe, files->inputs, render);
     if (!rendered) return rendered.error();
     if (rendered->outputs.size() != 1) {
       return bad_input(file.string(),

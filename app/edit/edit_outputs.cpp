@@ -9,6 +9,7 @@
 
 #include "edit/state/measure_constraints.h"
 #include "edit/state/plant_feet.h"
+#include "edit/state/resolve_moment.h"
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
@@ -17,7 +18,7 @@
 #include "core/pose.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/body/constraints_file.h"
-#include "recordings/body/mesh.h"
+#include "recordings/body/mannequin.h"
 #include "recordings/edit/annotations_file.h"
 #include "recordings/gltf/gltf.h"
 #include "recordings/motion/npz.h"

@@ -25,39 +25,6 @@ namespace {
 constexpr double kSameTime_s = 1e-9;
 constexpr double kSamePlace_m = 1e-9;
 
-void move_box(const RigidTransform& move, glm::dvec3& low, glm::dvec3& high) {
-  const glm::dvec3 from = low;
-  const glm::dvec3 to = high;
-  low = move * from;
-  high = low;
-  for (int corner = 1; corner < 8; ++corner) {
-    const glm::dvec3 p = move * glm::dvec3((corner & 1) != 0 ? to.x : from.x,
-                                           (corner & 2) != 0 ? to.y : from.y,
-                                           (corner & 4) != 0 ? to.z : from.z);
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-}
-
-void move_goal(const RigidTransform& move, Goal& goal) {
-  if (auto* to_point = std::get_if<DistanceToPoint>(&goal)) {
-    to_point->p_in_world = move * to_point->p_in_world;
-  } else if (auto* allowed = std::get_if<AllowedSpace>(&goal)) {
-    move_box(move, allowed->min_in_world, allowed->max_in_world);
-  } else if (auto* forbidden = std::get_if<ForbiddenSpace>(&goal)) {
-    move_box(move, forbidden->min_in_world, forbidden->max_in_world);
-  } else if (auto* segment = std::get_if<SegmentOrientation>(&goal)) {
-    segment->world_from_t_pose = move.rotation * segment->world_from_t_pose;
-  } else if (auto* support = std::get_if<Support>(&goal)) {
-    if (support->footprint_in_world) {
-      support->footprint_in_world = move * *support->footprint_in_world;
-    }
-    if (support->world_from_t_pose) {
-      support->world_from_t_pose = move.rotation * *support->world_from_t_pose;
-    }
-  }
-}
-
 bool is_near(const glm::dvec3& a, const glm::dvec3& b) {
   return glm::distance(a, b) < kSamePlace_m;
 }
@@ -297,21 +264,6 @@ void append_uncertainty(const EditState& tail, EditState& out, OpReport& report)
 }
 
 }  // namespace
-
-void move_state(const RigidTransform& moved_from_world, EditState& state) {
-  for (Pose& pose : state.motion.poses) {
-    pose.root_in_world = moved_from_world * pose.root_in_world;
-    glm::dquat& root = pose.parent_from_joint.front();
-    root = moved_from_world.rotation * root;
-  }
-  for (Constraint& constraint : state.constraints.constraints) {
-    move_goal(moved_from_world, constraint.goal);
-  }
-  for (retarget::FootContacts& foot : state.contacts.feet) {
-    foot.ankle_height_m += moved_from_world.translation.y;
-    foot.ball_height_m += moved_from_world.translation.y;
-  }
-}
 
 EditState join_states(const EditState& first,
                       const EditState& second,

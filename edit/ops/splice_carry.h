@@ -7,14 +7,7 @@
 #include "edit/state/edit_state.h"
 #include "edit/state/op_report.h"
 
-#include "core/transform.h"
-
 namespace marey::edit {
-
-/// Moves a motion and the world points of its constraints. Boxes of constraints become
-/// the smallest boxes along the world's axes that hold the turned ones.
-/// Precondition: `moved_from_world` turns about the vertical; the skeleton has one root.
-void move_state(const RigidTransform& moved_from_world, EditState& state);
 
 /// Frames of a joined motion in which both motions are shown.
 struct JoinFrames {

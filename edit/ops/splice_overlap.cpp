@@ -24,7 +24,7 @@ constexpr double kMaxRate = 2.0;
 constexpr double kMinRoom = 2.0;
 
 // One instant of the result and of both motions, in frames since the overlap's start.
-struct WarpKnot {
+struct SpliceKnot {
   double at = 0.0;
   double first = 0.0;
   double second = 0.0;
@@ -49,11 +49,11 @@ bool is_allowed_rate(double change, double time) {
 }
 
 // Inserts a knot unless a rate next to it would leave the limits.
-bool insert_knot(const WarpKnot& knot, std::vector<WarpKnot>& knots) {
+bool insert_knot(const SpliceKnot& knot, std::vector<SpliceKnot>& knots) {
   const auto after = std::find_if(
-      knots.begin(), knots.end(), [&](const WarpKnot& k) { return k.at >= knot.at; });
+      knots.begin(), knots.end(), [&](const SpliceKnot& k) { return k.at >= knot.at; });
   if (after == knots.begin() || after == knots.end()) return false;
-  const auto fits = [](const WarpKnot& a, const WarpKnot& b) {
+  const auto fits = [](const SpliceKnot& a, const SpliceKnot& b) {
     const double time = b.at - a.at;
     return time >= kMinRoom && is_allowed_rate(b.first - a.first, time) &&
            is_allowed_rate(b.second - a.second, time);
@@ -106,9 +106,10 @@ double warp_between(
          (to - from) * (10.0 * x3 - 15.0 * x4 + 6.0 * x5);
 }
 
-// Evaluates one motion's warp at the whole frames of the result.
-std::vector<double> warp_frames(const std::vector<WarpKnot>& knots,
-                                double WarpKnot::*value,
+// Evaluates one motion's warp at the whole frames of the result. core/time_warp.h has the
+// same intervals, but its speed at the ends is not 1.
+std::vector<double> warp_frames(const std::vector<SpliceKnot>& knots,
+                                double SpliceKnot::*value,
                                 int length) {
   const std::size_t spans = knots.size() - 1;
   std::vector<double> rate(spans);
@@ -124,8 +125,8 @@ std::vector<double> warp_frames(const std::vector<WarpKnot>& knots,
   std::size_t span = 0;
   for (int frame = 0; frame <= length; ++frame) {
     while (span + 1 < spans && frame > knots[span + 1].at) ++span;
-    const WarpKnot& a = knots[span];
-    const WarpKnot& b = knots[span + 1];
+    const SpliceKnot& a = knots[span];
+    const SpliceKnot& b = knots[span + 1];
     const double h = b.at - a.at;
     out.push_back(warp_between(
         a.*value, b.*value, slope[span] * h, slope[span + 1] * h, (frame - a.at) / h));
@@ -141,7 +142,7 @@ void warp_to_supports(const EditState& first,
                       int second_start,
                       SpliceOverlap& overlap) {
   const int length = overlap.last();
-  std::vector<WarpKnot> knots{{}, {1.0 * length, 1.0 * length, 1.0 * length}};
+  std::vector<SpliceKnot> knots{{}, {1.0 * length, 1.0 * length, 1.0 * length}};
   bool is_plain = true;
   for (const auto& [x, y] :
        paired_edges(first, first_start, second, second_start, length)) {
@@ -151,8 +152,8 @@ void warp_to_supports(const EditState& first,
     is_plain = is_plain && x == y;
   }
   if (is_plain) return;
-  const auto first_at = warp_frames(knots, &WarpKnot::first, length);
-  const auto second_at = warp_frames(knots, &WarpKnot::second, length);
+  const auto first_at = warp_frames(knots, &SpliceKnot::first, length);
+  const auto second_at = warp_frames(knots, &SpliceKnot::second, length);
   for (std::size_t k = 0; k < first_at.size(); ++k) {
     const double frame = static_cast<double>(k);
     overlap.first_at[k] = first_start + first_at[k];

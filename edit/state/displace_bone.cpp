@@ -27,7 +27,7 @@ constexpr double kMaxWay_m = 100.0;
 constexpr double kUnitTolerance = 1e-6;
 /// A smaller distance from a target is rounding.
 constexpr double kMissed_m = 1e-4;
-constexpr double kToMm = 1e3;
+constexpr double kBoneToMm = 1e3;
 
 bool is_finite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -181,16 +181,16 @@ void report_miss(const BoneDisplacement& wanted,
                  const LimbMiss& miss,
                  const EditState& state,
                  OpReport& report) {
-  report.figures.emplace_back("missed_mm", kToMm * miss.missed_m);
+  report.figures.emplace_back("missed_mm", kBoneToMm * miss.missed_m);
   if (miss.missed_m <= kMissed_m) return;
   report.findings.push_back(
       fair_finding("reach",
                    std::string(name(wanted.bone)),
                    "the target is out of reach by " +
-                       format_text("%.0f mm", kToMm * miss.missed_m) + " at " +
+                       format_text("%.0f mm", kBoneToMm * miss.missed_m) + " at " +
                        at_time(state, miss.frame),
                    "move it less far, or move the hips as well")
-          .measured(kToMm * miss.missed_m, std::nullopt, "mm"));
+          .measured(kBoneToMm * miss.missed_m, std::nullopt, "mm"));
 }
 
 void keep_feet(const BoneDisplacement& wanted,
@@ -202,27 +202,27 @@ void keep_feet(const BoneDisplacement& wanted,
   if (!is_hips && !(wanted.rotation && carries_foot(wanted.bone))) return;
   const KeptFeet kept = is_hips ? keep_both_feet(state) : keep_standing_feet(state);
   const HoldFeetReport held = hold_feet(state, before, frames, kept, state.motion);
-  report.figures.emplace_back("lowered_mm", kToMm * held.lowered_m);
-  report.figures.emplace_back("feet_missed_mm", kToMm * held.missed_m);
+  report.figures.emplace_back("lowered_mm", kBoneToMm * held.lowered_m);
+  report.figures.emplace_back("feet_missed_mm", kBoneToMm * held.missed_m);
   if (held.lowered_m > kMissed_m) {
     report.findings.push_back(
         fair_finding("reach",
                      "legs",
                      "the root was lowered by up to " +
-                         format_text("%.0f mm", kToMm * held.lowered_m) +
+                         format_text("%.0f mm", kBoneToMm * held.lowered_m) +
                          ", because the legs do not reach the feet's places otherwise",
                      "displace the hips less")
-            .measured(kToMm * held.lowered_m, std::nullopt, "mm"));
+            .measured(kBoneToMm * held.lowered_m, std::nullopt, "mm"));
   }
   if (held.missed_m > kMissed_m) {
     report.findings.push_back(
         fair_finding("reach",
                      "legs",
                      "a foot leaves its place by " +
-                         format_text("%.0f mm", kToMm * held.missed_m) + " at " +
+                         format_text("%.0f mm", kBoneToMm * held.missed_m) + " at " +
                          at_time(state, held.missed_frame),
                      "displace the hips less; \"place\" moves the whole motion")
-            .measured(kToMm * held.missed_m, std::nullopt, "mm"));
+            .measured(kBoneToMm * held.missed_m, std::nullopt, "mm"));
   }
 }
 
@@ -249,7 +249,7 @@ Status displace_bone(const BoneDisplacement& displacement,
   report_slide(displacement, weights, state, report);
   keep_feet(displacement, before, weights.frames, state, report);
   const double largest_m = mark_displaced(state, before, weights.frames, report.index);
-  report.figures.emplace_back("largest_mm", kToMm * largest_m);
+  report.figures.emplace_back("largest_mm", kBoneToMm * largest_m);
   return Done{};
 }
 
