@@ -86,7 +86,7 @@ class EditListener {
                           const EditResult& result) = 0;
   virtual void on_loops(const EditAsker& asker, const EditLoops& loops) = 0;
   virtual void on_exported(const EditAsker& asker, const EditExported& exported) = 0;
-  /// A request of a page failed.
+  /// A request of a page failed. May also be called by the thread of the session.
   virtual void on_failed(const EditAsker& asker, const Error& error) = 0;
 };
 

@@ -33,6 +33,12 @@ bool is_on_avatar(const EditResult& result, std::optional<int> until) {
                      });
 }
 
+/// Returns the member `skeletons` of a scene; null if there is none.
+RenderedJson skeletons_of(const std::string& scene) {
+  if (scene.empty()) return {};
+  return RenderedJson::parse(scene).at("skeletons");
+}
+
 /// Returns the frames of `wanted` that exist; all if none do.
 FrameRange existing(const std::optional<FrameRange>& wanted, int frames) {
   const FrameRange all{0, frames - 1};
@@ -87,6 +93,7 @@ RenderedMessage rendered_message(const EditResult& result, const RenderedForm& f
   if (form.asker != nullptr) json["id"] = form.asker->id;
   json["revision"] = result.revision;
   json["scene"] = form.scene;
+  if (form.asker != nullptr) json["skeletons"] = skeletons_of(form.own_scene);
   json["until"] = form.parts.until ? RenderedJson(*form.parts.until) : RenderedJson();
   json["outputs"] = std::move(outputs);
   json["reports"] = std::move(reports);

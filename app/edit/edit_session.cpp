@@ -17,13 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kRecipeEnding = ".edit.toml";
+constexpr std::string_view kEditEnding = ".edit";
 constexpr std::size_t kSha256Digits = 64;
 
-/// Returns "walk" for "walk.edit.toml".
+/// Returns "walk" for "walk.edit.toml", and for "walk.toml".
 std::string recipe_stem(const fs::path& file) {
-  std::string name = file.filename().string();
-  if (name.ends_with(kRecipeEnding)) name.resize(name.size() - kRecipeEnding.size());
+  std::string name = file.stem().string();
+  if (name.ends_with(kEditEnding)) name.resize(name.size() - kEditEnding.size());
   return name;
 }
 
@@ -130,6 +130,7 @@ EditSession::EditSession(Opened opened,
       avatars_(avatars_of(recipe_)),
       facts_(facts_of(recipe_, opened.files)),
       remarks_(opened.files.remarks),
+      can_write_(!options.output.out.empty()),
       worker_(std::move(opened.files),
               recipe_,
               read_options(options),
@@ -228,6 +229,11 @@ EditOutcome EditSession::loops(EditAsker asker, const live::LoopsRequest& reques
 
 EditOutcome EditSession::write(EditAsker asker, const live::ExportRequest& request) {
   if (auto stale = check_base(request.base_revision)) return *stale;
+  if (!can_write_) {
+    return bad_input("export",
+                     "this edit has no folder for results",
+                     "start marey edit with --out FOLDER");
+  }
   worker_.add(ExportTask{std::move(asker), revision().number, recipe_});
   return EditAccepted{revision().number};
 }

@@ -101,6 +101,7 @@ class EditSession {
   std::set<std::string> avatars_;
   std::vector<EditSourceFacts> facts_;
   std::vector<std::string> remarks_;
+  bool can_write_;     ///< There is a folder for exports.
   EditWorker worker_;  ///< Last, because its thread ends first.
 };
 
