@@ -23,8 +23,8 @@ namespace marey::app {
 /// The sender of a request, for the answer.
 struct EditAsker {
   std::uint64_t page = 0;  ///< Number of the page.
-  std::string about;       ///< Type of the request.
-  std::string id;          ///< Chosen by the page.
+  std::string about{};     ///< Type of the request.
+  std::string id{};        ///< Chosen by the page.
 };
 
 /// State of the rendering of a revision.
@@ -50,9 +50,9 @@ struct EditResult {
 
 /// Parts of a preview that are sent.
 struct PreviewParts {
-  std::optional<int> until;        ///< Number of operations; nullopt: all.
-  std::optional<int> output;       ///< Index; nullopt: all.
-  std::optional<FrameRange> span;  ///< nullopt: all frames.
+  std::optional<int> until{};        ///< Number of operations; nullopt: all.
+  std::optional<int> output{};       ///< Index; nullopt: all.
+  std::optional<FrameRange> span{};  ///< nullopt: all frames.
 };
 
 struct EditLoops {

@@ -46,10 +46,10 @@ struct RenderedMessage {
 
 /// How a result is sent.
 struct RenderedForm {
-  int scene = 1;           ///< Number of the scene that it belongs to.
-  std::string block_path;  ///< "/media/edit/7.": the index of the output follows.
-  PreviewParts parts;
-  std::string own_scene;             ///< Scene of a preview of another body; else empty.
+  int scene = 1;             ///< Number of the scene that it belongs to.
+  std::string block_path{};  ///< "/media/edit/7.": the index of the output follows.
+  PreviewParts parts{};
+  std::string own_scene{};           ///< Scene of a preview of another body; else empty.
   const EditAsker* asker = nullptr;  ///< Of a preview; nullptr: for all pages.
 };
 

@@ -26,14 +26,14 @@ struct OpsPatchStep {
   bool off = false;  ///< For kToggle.
   /// For kInsert and kReplace: "[[op]]" and its keys, as in a recipe. Its keys and values
   /// are unchecked: the reader of recipes checks them.
-  std::string op_toml;
+  std::string op_toml{};
 };
 using OpsPatch = std::vector<OpsPatchStep>;
 
 /// Makes a revision.
 struct EditRequest {
   int base_revision = 0;
-  OpsPatch patch;
+  OpsPatch patch{};
 };
 struct UndoRequest {
   int base_revision = 0;
@@ -44,17 +44,17 @@ struct RedoRequest {
 /// Renders a change without making a revision; without steps, the revision itself.
 struct PreviewRequest {
   int base_revision = 0;
-  OpsPatch patch;
-  std::optional<int> until;   ///< Number of operations; nullopt: all.
-  std::optional<int> output;  ///< Index; nullopt: all outputs.
-  std::optional<FrameRange> span;
+  OpsPatch patch{};
+  std::optional<int> until{};   ///< Number of operations; nullopt: all.
+  std::optional<int> output{};  ///< Index; nullopt: all outputs.
+  std::optional<FrameRange> span{};
 };
 struct LoopsRequest {
   int base_revision = 0;
-  std::optional<int> until;
+  std::optional<int> until{};
   int output = 0;
-  std::optional<double> min_period_s;
-  std::optional<double> max_period_s;
+  std::optional<double> min_period_s{};
+  std::optional<double> max_period_s{};
   bool map = false;
 };
 struct ExportRequest {
