@@ -16,5 +16,5 @@ set(edit_LAYERS signal state find ops .)
 set(recordings_LAYERS base body edit takes motion gltf markers print session)
 set(live_LAYERS udp vmc page web)
 set(app_LAYERS
-  shell motion pages adapt edit convert print plan record check markers process retarget
-  live_chain view live inspect .)
+  shell motion pages adapt convert print plan record check markers process retarget
+  live_chain view edit live inspect .)
