@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "tests/edit/splice/splice_scene.h"
+#include "tests/edit/ops/splice_scene.h"
 
 namespace marey::edit {
 namespace {

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/resample.h"
-#include "tests/edit/splice/splice_scene.h"
+#include "tests/edit/ops/splice_scene.h"
 
 namespace marey::edit {
 namespace {
