@@ -237,7 +237,9 @@ Pose between_poses(const Pose& a, const Pose& b, double share) {
   if (share <= 0.0) return a;
   if (share >= 1.0) return b;
   Pose out = a;
-  out.root_in_world = glm::mix(a.root_in_world, b.root_in_world, share);
+  if (a.root_in_world != b.root_in_world) {
+    out.root_in_world = glm::mix(a.root_in_world, b.root_in_world, share);
+  }
   for (std::size_t j = 0; j < out.parent_from_joint.size(); ++j) {
     glm::dquat to = b.parent_from_joint[j];
     const glm::dquat& from = a.parent_from_joint[j];
