@@ -100,25 +100,40 @@ SeamVelocity seam_velocity(const Motion& cycle, const edit::PlanarMove& step) {
   return out;
 }
 
-// Median time between strikes of one foot, over both feet. [s]
-std::optional<double> strike_period_s(const edit::EditState& state) {
-  std::vector<double> periods;
+// Mean time between two strikes of one foot around the middle of the loop. [s]
+std::optional<double> strike_period_s(const edit::EditState& state, double middle) {
+  double sum = 0.0;
+  int count = 0;
   for (const auto& foot : state.contacts.feet) {
+    std::optional<double> nearest;
+    double off = 0.0;
     for (std::size_t k = 1; k < foot.stance.size(); ++k) {
-      if (foot.stance[k - 1].first == 0) continue;
-      periods.push_back((foot.stance[k].first - foot.stance[k - 1].first) /
-                        state.motion.rate.hz);
+      const int from = foot.stance[k - 1].first;
+      const int to = foot.stance[k].first;
+      const double away = std::abs(0.5 * (from + to) - middle);
+      if (from == 0 || (nearest && away >= off)) continue;
+      nearest = (to - from) / state.motion.rate.hz;
+      off = away;
     }
+    if (!nearest) continue;
+    sum += *nearest;
+    ++count;
   }
-  if (periods.empty()) return std::nullopt;
-  return quantile(periods, 0.5);
+  if (count == 0) return std::nullopt;
+  return sum / count;
+}
+
+// All joints alike, without the velocities.
+edit::MatchPoints plain_points(const edit::EditState& state) {
+  edit::MatchPoints points = edit::match_points(state.motion, state.map);
+  for (double& weight : points.weights) weight = 1.0 / points.point_count();
+  return points;
 }
 
 // Median over pairs of frames, some thousands, more than a tenth of a second apart.
-double median_gap_m(const edit::EditState& state) {
-  const edit::MatchPoints points = edit::match_points(state.motion, state.map);
+double median_gap_m(const edit::MatchPoints& points, double hz) {
   const int step = std::max(1, points.frame_count() / 80);
-  const int apart = static_cast<int>(std::ceil(0.1 * state.motion.rate.hz));
+  const int apart = static_cast<int>(std::ceil(0.1 * hz));
   std::vector<double> gaps;
   for (int i = 0; i < points.frame_count(); i += step) {
     for (int j = i + apart; j < points.frame_count(); j += step) {
@@ -133,9 +148,11 @@ struct LoopRow {
   double period_s = 0.0;
   std::optional<double> strikes_s;
   double change_percent = 0.0;
-  double gap_mm = 0.0, worst_mm = 0.0, median_mm = 0.0, velocity_gap = 0.0;
+  double gap_mm = 0.0, plain_mm = 0.0, worst_mm = 0.0, median_mm = 0.0;
+  double velocity_gap = 0.0, plain_velocity_gap = 0.0;
   double turn_deg = 0.0, travel_m = 0.0;
-  double cut_acceleration = 0.0, seam_acceleration = 0.0, inside_acceleration = 0.0;
+  double cut_acceleration = 0.0, cut_inside = 0.0;
+  double seam_acceleration = 0.0, inside_acceleration = 0.0;
   double seam_jump = 0.0, inside_jump = 0.0;
   double slide_source = 0.0, slide_loop = 0.0, drift_m = 0.0, displaced_mm = 0.0;
   double find_ms = 0.0, all_ms = 0.0;
@@ -149,13 +166,20 @@ double figure(const edit::OpReport& report, const std::string& name) {
 }
 
 // The cycle as it is cut, repeated without any correction.
-double cut_acceleration(const edit::EditState& state, const LoopRow& row, double first) {
-  const int frames = static_cast<int>(std::lround(row.period_s * state.motion.rate.hz));
+void measure_cut(const edit::EditState& state, double first, int frames, LoopRow& row) {
   const int start = static_cast<int>(first);
   const int end = std::min(start + frames, state.frame_count() - 1);
+  const edit::MatchPoints plain = plain_points(state);
+  const edit::PlanarMatch match = edit::match_windows(plain, end, plain, start);
   const edit::LoopCandidate loop = edit::compare_loop(state, start, end);
   const edit::EditState cut = edit::slice_state(state, {start, end - 1});
-  return edit::seam_acceleration(cut.motion, loop.match.a_from_b).seam;
+  const auto seam = edit::seam_acceleration(cut.motion, loop.match.a_from_b);
+  row.cut_acceleration = seam.seam;
+  row.cut_inside = seam.inside;
+  row.plain_mm = 1e3 * match.rms_m;
+  row.plain_velocity_gap = match.rms_velocity_m_per_s;
+  row.median_mm = 1e3 * median_gap_m(plain, state.motion.rate.hz);
+  row.strikes_s = strike_period_s(state, start + 0.5 * frames);
 }
 
 // Largest distance of a copy's first frame from the first one moved by whole travels. [m]
@@ -195,15 +219,13 @@ Result<LoopRow> measure(const std::string& name, const edit::EditState& state) {
   const SeamVelocity jump = seam_velocity(cycle.motion, step);
   row.period_s = figure(report, "period_s");
   row.change_percent = figure(report, "period_change_percent");
-  row.strikes_s = strike_period_s(state);
   row.gap_mm = figure(report, "gap_rms_mm");
   row.worst_mm = figure(report, "gap_worst_mm");
-  row.median_mm = 1e3 * median_gap_m(state);
   row.velocity_gap = figure(report, "velocity_gap_m_per_s");
   row.turn_deg = figure(report, "turn_deg");
   row.travel_m = figure(report, "travel_m");
   row.displaced_mm = figure(report, "displaced_mm");
-  row.cut_acceleration = cut_acceleration(state, row, figure(report, "first_frame"));
+  measure_cut(state, figure(report, "first_frame"), frames, row);
   row.seam_acceleration = seam.seam;
   row.inside_acceleration = seam.inside;
   row.seam_jump = jump.seam;
@@ -218,22 +240,26 @@ ResultTable row_table(const std::vector<LoopRow>& rows) {
   ResultTable table;
   table.id = "loops";
   table.title = "Best loop of each motion, straight, ten cycles";
-  table.columns = {{"motion"},      {"period s", 3},  {"strikes s", 3},  {"gap mm", 0},
-                   {"worst mm", 0}, {"median mm", 0}, {"dv m/s", 2},     {"turn deg", 1},
-                   {"travel m", 2}, {"a cut", 0},     {"a seam", 0},     {"a p95", 0},
-                   {"jump m/s", 2}, {"jump p95", 2},  {"slide cm/s", 1}, {"looped", 3},
-                   {"drift mm", 6}, {"moved mm", 0},  {"find ms", 1},    {"op ms", 0}};
+  table.columns = {{"motion"},      {"period s", 3},   {"strikes s", 3}, {"gap mm", 0},
+                   {"plain mm", 0}, {"worst mm", 0},   {"median mm", 0}, {"dv m/s", 2},
+                   {"plain dv", 2}, {"turn deg", 1},   {"travel m", 2},  {"a cut", 0},
+                   {"cut p95", 0},  {"a seam", 0},     {"a p95", 0},     {"jump m/s", 2},
+                   {"jump p95", 2}, {"slide cm/s", 1}, {"looped", 3},    {"drift mm", 6},
+                   {"moved mm", 0}, {"find ms", 1},    {"op ms", 0}};
   for (const LoopRow& r : rows) {
     table.rows.push_back({r.name,
                           r.period_s,
                           r.strikes_s ? TableCell(*r.strikes_s) : TableCell("-"),
                           r.gap_mm,
+                          r.plain_mm,
                           r.worst_mm,
                           r.median_mm,
                           r.velocity_gap,
+                          r.plain_velocity_gap,
                           r.turn_deg,
                           r.travel_m,
                           r.cut_acceleration,
+                          r.cut_inside,
                           r.seam_acceleration,
                           r.inside_acceleration,
                           r.seam_jump,
@@ -246,9 +272,13 @@ ResultTable row_table(const std::vector<LoopRow>& rows) {
                           r.all_ms});
   }
   table.notes = {
-      "period s: of the loop; strikes s: median time between strikes of one foot",
+      "period s: of the loop; strikes s: mean of both feet's time between strikes, "
+      "around "
+      "the middle of the loop",
       "gap, worst: joints at the ends of the cycle, weighted rms and largest, before "
-      "correction; median: rms of all pairs; dv: rms of velocities",
+      "correction; dv: rms of velocities; plain: all joints alike; median: the same, of "
+      "all "
+      "pairs of frames",
       "a: largest acceleration of a joint in m/s^2 at the seam, as cut and after; p95: "
       "of all other frames",
       "jump: velocity before the seam against after it, by cubics through 4 frames on "

@@ -22,9 +22,11 @@ struct LoopCandidate {
   int last = 0;   ///< Frame that repeats `first`: the first one after the cycle.
   /// Length of the cycle in frames, with a fraction: within half a frame of last - first.
   double period_frames = 0.0;
-  /// Match of `last` (as a) with `first` (as b) over all joints, so that match.a_from_b
-  /// is the travel of one cycle.
+  /// Match of `last` (as a) with `first` (as b) over all joints.
   PlanarMatch match;
+  /// Moves the posture at `first` to the one a period later: match.a_from_b, interpolated
+  /// to the fraction of period_frames.
+  PlanarMove travel;
   LoopEdge edge = LoopEdge::kNone;
 };
 

@@ -73,7 +73,7 @@ ChosenCycle chosen(const EditState& state, const CyclifyOp& op, LoopCandidate lo
   out.spec.first = loop.first;
   out.spec.period_frames = std::min(
       loop.period_frames, static_cast<double>(state.frame_count() - 1 - loop.first));
-  out.spec.travel = loop.match.a_from_b;
+  out.spec.travel = loop.travel;
   out.spec.drift = op.drift;
   out.loop = std::move(loop);
   return out;
@@ -90,11 +90,11 @@ Result<ChosenCycle> given_cycle(const CyclifyOp& op, const EditState& state) {
   }
   const int last = std::min(static_cast<int>(std::lround(*to)), state.frame_count() - 1);
   const int first = std::min(static_cast<int>(std::lround(*from)), last - 1);
-  ChosenCycle out = chosen(state, op, compare_loop(state, first, last));
+  LoopCandidate loop = compare_loop(state, first, last);
   // The frames as given, not the nearest better ones.
-  out.spec.first = *from;
-  out.spec.period_frames = *to - *from;
-  return out;
+  loop.period_frames = last - first;
+  loop.travel = loop.match.a_from_b;
+  return chosen(state, op, std::move(loop));
 }
 
 Error no_cycle(const EditState& state, const FindLoopsOptions& options) {
