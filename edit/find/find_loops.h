@@ -13,7 +13,7 @@
 
 namespace marey::edit {
 
-/// What the feet do where a cycle starts and ends.
+/// Contacts of the feet at the start and the end of a cycle.
 enum class LoopEdge { kLeftStrike, kRightStrike, kNone };
 
 /// A pair of frames between which a motion is nearly a cycle.

@@ -13,8 +13,8 @@ namespace {
 
 using B = HumanBone;
 
-/// What the feature joints stand for, as shares of the mass: trunk with head, forearm
-/// with hand and part of the upper arm, leg below the hip (de Leva 1996).
+/// Parts of the body that the feature joints represent, as shares of the mass: trunk with
+/// head, forearm with hand and part of the upper arm, leg below the hip (de Leva 1996).
 constexpr double kTrunkShare = 0.50;
 constexpr double kWristShare = 0.05;
 constexpr double kAnkleShare = 0.20;

@@ -230,7 +230,7 @@ std::vector<double> foot_shares(const retarget::Contacts& contacts, std::size_t 
       out[static_cast<std::size_t>(of_three)] = at - frames;
     }
   }
-  // Of the middle cycle.
+  // Frames of the middle cycle.
   for (double& at : out) at = at / frames - 1.0;
   return out;
 }

@@ -8,12 +8,14 @@
 #include <utility>
 
 #include "edit/state/op_weights.h"
+#include "edit/state/reach_foot.h"
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
 #include "core/base/assert.h"
 #include "core/pose.h"
 #include "retarget/body/normalized_skeleton.h"
+#include "retarget/contacts/frame_marks.h"
 #include "retarget/feet/adapt_to_ground.h"
 #include "retarget/feet/leg_placement.h"
 
@@ -57,7 +59,7 @@ double moved_m(const FootPlace& a, const FootPlace& b) {
 
 bool is_turned(const glm::dquat& a, const glm::dquat& b) {
   const double dot = glm::dot(a, b);
-  return 1.0 - dot * dot > kUnturned;
+  return 1.0 - dot * dot / (glm::dot(a, a) * glm::dot(b, b)) > kUnturned;
 }
 
 bool is_same_place(const FootPlace& a, const FootPlace& b) {
@@ -74,15 +76,24 @@ std::vector<std::size_t> leg_joints(const EditState& state) {
   return out;
 }
 
+// A bearing foot that is further from its place does not reach it. [m]
+constexpr double kReached_m = 5e-4;
+
 /// Takes legs and root from the settled postures, and everything else from the motion.
-void take_legs(const std::vector<NormalizedPose>& settled,
-               const PlantFrames& before,
-               const std::array<std::vector<FootPlace>, 2>& feet,
-               EditState& state) {
+/// Returns the number of frames in which a bearing foot does not reach its place.
+int take_legs(const std::vector<NormalizedPose>& settled,
+              const PlantFrames& before,
+              const std::array<std::vector<FootPlace>, 2>& feet,
+              EditState& state) {
   const Skeleton& skeleton = state.motion.skeleton;
   const std::vector<std::size_t> legs = leg_joints(state);
   std::vector<RigidTransform> joints(skeleton.joints.size());
   Pose expanded;
+  int missed = 0;
+  std::array<std::vector<char>, 2> bears;
+  for (std::size_t side = 0; side < 2; ++side) {
+    bears[side] = retarget::frame_marks(state.contacts.feet[side].stance, settled.size());
+  }
   for (std::size_t t = 0; t < settled.size(); ++t) {
     const glm::dvec3 sunk = settled[t].root - before.poses[t].root;
     if (glm::length(sunk) < kUnmoved_m && is_same_place(before.feet[0][t], feet[0][t]) &&
@@ -95,7 +106,21 @@ void take_legs(const std::vector<NormalizedPose>& settled,
     for (const std::size_t joint : legs) {
       pose.parent_from_joint[joint] = expanded.parent_from_joint[joint];
     }
+    world_from_joints(skeleton, pose, joints);
+    bool is_missed = false;
+    for (int side = 0; side < 2; ++side) {
+      // Joints without a bone between hips and thigh are at rest in settled postures.
+      const auto s = static_cast<std::size_t>(side);
+      const glm::dvec3& ankle = joints[index(state.map.leg(side).end)].translation;
+      double off_m = glm::distance(ankle, feet[s][t].ankle_in_world);
+      if (off_m > kUnmoved_m) {
+        off_m = reach_foot(skeleton, state.map, side, feet[s][t], pose);
+      }
+      is_missed |= off_m > kReached_m && bears[s][t] != 0;
+    }
+    if (is_missed) ++missed;
   }
+  return missed;
 }
 
 double largest_move_m(const PlantFrames& before,
@@ -115,19 +140,19 @@ void raise(std::vector<NormalizedPose>& poses, double height_m) {
 
 void settle(const PlantFrames& before,
             std::array<std::vector<FootPlace>, 2> feet,
+            const retarget::GroundOptions& ground,
             EditState& state,
             PlantReport& report) {
   std::vector<NormalizedPose> settled = before.poses;
   report.largest_moved_m = largest_move_m(before, feet);
-  report.unreachable_frames = retarget::settle_on_feet(state.motion.skeleton,
-                                                       state.map,
-                                                       state.contacts,
-                                                       state.motion.rate,
-                                                       settled,
-                                                       feet,
-                                                       {})
-                                  .unreachable_frames;
-  take_legs(settled, before, feet, state);
+  (void)retarget::settle_on_feet(state.motion.skeleton,
+                                 state.map,
+                                 state.contacts,
+                                 state.motion.rate,
+                                 settled,
+                                 feet,
+                                 ground);
+  report.unreachable_frames = take_legs(settled, before, feet, state);
 }
 
 }  // namespace
@@ -147,13 +172,14 @@ PlantReport plant_feet(EditState& state) {
   for (auto& path : feet) {
     for (FootPlace& place : path) place.ankle_in_world.y -= rise_m;
   }
-  settle(before, std::move(feet), state, report);
+  settle(before, std::move(feet), {}, state, report);
   report.slide_after_mm = measure_slide(state).worst_drift_mm;
   return report;
 }
 
 PlantReport set_feet(EditState& state,
-                     const std::array<std::vector<std::optional<FootPlace>>, 2>& feet) {
+                     const std::array<std::vector<std::optional<FootPlace>>, 2>& feet,
+                     const retarget::GroundOptions& ground) {
   PlantReport report;
   report.slide_before_mm = measure_slide(state).worst_drift_mm;
   const PlantFrames before = plant_frames(state);
@@ -164,7 +190,7 @@ PlantReport set_feet(EditState& state,
       if (feet[side][t]) planned[side][t] = *feet[side][t];
     }
   }
-  settle(before, std::move(planned), state, report);
+  settle(before, std::move(planned), ground, state, report);
   report.slide_after_mm = measure_slide(state).worst_drift_mm;
   return report;
 }

@@ -9,6 +9,7 @@
 #include "edit/state/edit_state.h"
 
 #include "core/motion.h"
+#include "retarget/feet/adapt_to_ground.h"
 #include "retarget/feet/foot_place.h"
 
 namespace marey::edit {
@@ -30,11 +31,12 @@ PlantReport plant_feet(EditState& state);
 
 /// Makes the legs reach feet that were planned by the caller: one FootPlace per frame and
 /// side (T-pose-relative world rotations). Frames with a foot that is nullopt keep that
-/// foot. The root sinks where a leg would not reach, smoothed over 0.2 s.
+/// foot. The root sinks where a leg would not reach (`ground`; 0.2 s by default).
 /// Precondition: one entry per pose.
 PlantReport set_feet(
     EditState& state,
-    const std::array<std::vector<std::optional<retarget::FootPlace>>, 2>& feet);
+    const std::array<std::vector<std::optional<retarget::FootPlace>>, 2>& feet,
+    const retarget::GroundOptions& ground = {});
 
 /// Returns the place of a foot in each frame of a motion. Side 0 is left.
 [[nodiscard]] std::vector<retarget::FootPlace> foot_places(const EditState& state,

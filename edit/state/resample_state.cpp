@@ -63,7 +63,7 @@ double spline_at(const std::vector<double>& values,
              6.0;
 }
 
-/// Where a new frame lies between two old ones.
+/// Place of a new frame between two old ones.
 struct Between {
   std::size_t before = 0;
   double share = 0.0;  ///< 0: the old frame itself.
@@ -237,7 +237,9 @@ Pose between_poses(const Pose& a, const Pose& b, double share) {
   if (share <= 0.0) return a;
   if (share >= 1.0) return b;
   Pose out = a;
-  out.root_in_world = glm::mix(a.root_in_world, b.root_in_world, share);
+  if (a.root_in_world != b.root_in_world) {
+    out.root_in_world = glm::mix(a.root_in_world, b.root_in_world, share);
+  }
   for (std::size_t j = 0; j < out.parent_from_joint.size(); ++j) {
     glm::dquat to = b.parent_from_joint[j];
     const glm::dquat& from = a.parent_from_joint[j];
