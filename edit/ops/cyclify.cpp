@@ -28,6 +28,7 @@ namespace {
 constexpr double kMaxGap_legs = 0.15;
 /// A joint this far off is worth a warning: a hand may be on the other side of the body.
 constexpr double kMaxJointGap_legs = 0.35;
+constexpr double kNearlyAsGood = 1.1;
 constexpr int kMaxCycles = 1000;
 constexpr double kDegrees = 57.295779513082320877;
 
@@ -111,6 +112,18 @@ Error no_cycle(const EditState& state, const FindLoopsOptions& options) {
       "widen min_period_s and max_period_s, or give from and to");
 }
 
+/// Returns the best candidate, or another one that is nearly as good if that has frames
+/// on both sides over which the seam can be blended.
+const LoopCandidate& best_with_room(const std::vector<LoopCandidate>& loops,
+                                    const EditState& state) {
+  const double room = CycleSpec{}.blend_s * state.motion.rate.hz + 1.0;
+  for (const LoopCandidate& loop : loops) {
+    if (loop.match.distance_m > kNearlyAsGood * loops.front().match.distance_m) break;
+    if (loop.first >= room && loop.last + room < state.frame_count()) return loop;
+  }
+  return loops.front();
+}
+
 Result<ChosenCycle> best_cycle(const CyclifyOp& op,
                                const OpContext& context,
                                const EditState& state) {
@@ -126,9 +139,9 @@ Result<ChosenCycle> best_cycle(const CyclifyOp& op,
       return bad_cyclify("the span has less than 3 frames", "choose a longer span");
     }
   }
-  std::vector<LoopCandidate> loops = find_loops(state, options);
+  const std::vector<LoopCandidate> loops = find_loops(state, options);
   if (loops.empty()) return no_cycle(state, options);
-  return chosen(state, op, std::move(loops.front()));
+  return chosen(state, op, best_with_room(loops, state));
 }
 
 Status check_gap(const CyclifyOp& op, const EditState& state, const LoopCandidate& loop) {
