@@ -53,13 +53,13 @@ TEST(TimeWarp, HasContinuousSpeedAndAccelerationAtKnots) {
   }
 }
 
-TEST(TimeWarp, OfKnotsOnALineIsTheLineToTheBit) {
+TEST(TimeWarp, IsALineToTheBitForKnotsOnALine) {
   const std::vector<WarpKnot> knots{{0.0, 0.0}, {1.0, 0.5}, {3.0, 1.5}, {4.0, 2.0}};
   const TimeWarp warp(knots);
   for (double t = -1.0; t < 6.0; t += 0.125) EXPECT_EQ(warp.source_s(t), 0.5 * t);
 }
 
-TEST(TimeWarp, OfOneKnotShiftsTime) {
+TEST(TimeWarp, ShiftsTimeForOneKnot) {
   const std::vector<WarpKnot> knots{{2.0, 5.0}};
   const TimeWarp warp(knots);
   EXPECT_DOUBLE_EQ(warp.source_s(0.0), 3.0);

@@ -48,7 +48,7 @@ TEST(EditState, NamesTheFrameWithANumberThatIsNotFinite) {
   EXPECT_EQ(state.error().where, "frame 7");
 }
 
-TEST(EditState, OfOneFrameIsValid) {
+TEST(EditState, AcceptsOneFrame) {
   const auto state = make_edit_state(testing::synthetic_walk(1, 30.0).motion);
   ASSERT_TRUE(state);
   EXPECT_EQ(state->duration_s(), 0.0);
@@ -209,7 +209,7 @@ TEST(MixMotion, KeepsFramesOutsideTheSpanToTheBit) {
   }
 }
 
-TEST(Lineage, TellsTheOperationsOfEachFrame) {
+TEST(Lineage, RecordsTheOperationsOfEachFrame) {
   Lineage lineage = lineage_of_source(0, 10);
   touch(lineage, {2, 5}, 0);
   touch(lineage, {4, 8}, 3);
