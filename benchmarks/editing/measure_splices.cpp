@@ -34,7 +34,7 @@
 
 #include "edit/find/find_splice.h"
 #include "edit/ops/splice.h"
-#include "edit/ops/splice_source.h"
+#include "edit/splice/splice_source.h"
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 

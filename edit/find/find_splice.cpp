@@ -97,8 +97,8 @@ class SpliceSearch {
   const FindSpliceOptions& options_;
 };
 
-// Rounding decides nothing: costs this near are equal. [m]
-constexpr double kSameCost_m = 1e-7;
+// Costs this near are equal: the root of a rounding error must not decide. [m]
+constexpr double kSameCost_m = 1e-5;
 
 void sort_by_cost(std::vector<SpliceCandidate>& candidates) {
   std::sort(
