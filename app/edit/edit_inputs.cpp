@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxRecipesDeep = 16;
 
-/// Reads what a recipe names, and what the recipes among its sources name.
+/// Reads the files of a recipe, and those of recipes among its sources.
 class EditReader {
  public:
   EditReader(const EditRecipe& recipe,
@@ -61,7 +61,7 @@ class EditReader {
     return error;
   }
 
-  /// Finds a file at its path, or by its name beside the recipe.
+  /// Finds a file at its path, or by its name in the folder of the recipe.
   [[nodiscard]] Result<fs::path> find(const std::string& path) const {
     const fs::path stated(path);
     const fs::path full = stated.is_absolute() ? stated : options_.folder / stated;
@@ -176,7 +176,7 @@ class EditReader {
                        "gives " + std::to_string(rendered->outputs.size()) + " motions",
                        "use a recipe without keep and split as a source");
     }
-    // What the other recipe read decides about its result, so it is part of the key.
+    // The result depends on all files of the other recipe.
     for (const std::string& sha256 : files->sha256) out_.sha256.back() += sha256;
     for (const auto& [name, sha256] : files->avatar_sha256) out_.sha256.back() += sha256;
     if (out_.inputs.sources.empty()) out_.look = files->look;

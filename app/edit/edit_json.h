@@ -9,8 +9,8 @@
 #include "edit/render.h"
 #include <nlohmann/json_fwd.hpp>
 
+#include "app/edit/edit_figures.h"
 #include "app/edit/edit_inputs.h"
-#include "app/edit/edit_outputs.h"
 #include "core/edit/edit_recipe.h"
 
 namespace marey::app {

@@ -27,7 +27,8 @@ struct BoxTouch {
 };
 
 struct BoxTouchOptions {
-  double max_gap_m = 0.03;  ///< Of the hand's surface from the object's, either way.
+  double max_gap_m =
+      0.03;  ///< Distance of the hand's surface from the object's, inside or outside.
   /// A touch lasts while the middle of the hand is slower than this, and contains a frame
   /// with less than the other. Thresholds of retarget::FindTouchesOptions are for hands
   /// on a body that moves itself.

@@ -22,6 +22,7 @@ namespace {
 constexpr double kBelowPeriod = 0.75;
 constexpr double kAbovePeriod = 1.25;
 constexpr double kStrikeTolerance_s = 0.02;
+constexpr double kFullTurn = 6.283185307179586477;
 constexpr double kFarPair = std::numeric_limits<double>::infinity();
 /// A cycle in which the feet move less than this share of their usual movement is a rest
 /// between cycles.
@@ -239,17 +240,20 @@ LoopCandidate candidate(const MatchPoints& points,
   out.last = last;
   out.period_frames = last - first;
   out.match = match_windows(points, last, points, first, options);
+  out.travel = out.match.a_from_b;
   if (last + 1 >= points.frame_count() || last - 1 <= first) return out;
-  const auto squared = [&](int frame) {
-    const double d = match_windows(points, frame, points, first, options).distance_m;
-    return d * d;
-  };
-  const double before = squared(last - 1);
-  const double after = squared(last + 1);
-  const double bend = before - 2.0 * out.match.distance_m * out.match.distance_m + after;
-  if (bend > 0.0) {
-    out.period_frames += std::clamp(0.5 * (before - after) / bend, -0.5, 0.5);
-  }
+  const PlanarMatch before = match_windows(points, last - 1, points, first, options);
+  const PlanarMatch after = match_windows(points, last + 1, points, first, options);
+  const auto squared = [](const PlanarMatch& m) { return m.distance_m * m.distance_m; };
+  const double bend = squared(before) - 2.0 * squared(out.match) + squared(after);
+  if (bend <= 0.0) return out;
+  const double off =
+      std::clamp(0.5 * (squared(before) - squared(after)) / bend, -0.5, 0.5);
+  out.period_frames += off;
+  const PlanarMove& next = off < 0.0 ? before.a_from_b : after.a_from_b;
+  const double turn = std::remainder(next.turn_rad - out.travel.turn_rad, kFullTurn);
+  out.travel.turn_rad += std::abs(off) * turn;
+  out.travel.shift_xz_m += std::abs(off) * (next.shift_xz_m - out.travel.shift_xz_m);
   return out;
 }
 

@@ -13,7 +13,7 @@
 
 namespace marey::edit {
 
-/// What the feet do where a cycle starts and ends.
+/// Contacts of the feet at the start and the end of a cycle.
 enum class LoopEdge { kLeftStrike, kRightStrike, kNone };
 
 /// A pair of frames between which a motion is nearly a cycle.
@@ -22,9 +22,11 @@ struct LoopCandidate {
   int last = 0;   ///< Frame that repeats `first`: the first one after the cycle.
   /// Length of the cycle in frames, with a fraction: within half a frame of last - first.
   double period_frames = 0.0;
-  /// Match of `last` (as a) with `first` (as b) over all joints, so that match.a_from_b
-  /// is the travel of one cycle.
+  /// Match of `last` (as a) with `first` (as b) over all joints.
   PlanarMatch match;
+  /// Moves the posture at `first` to the one a period later: match.a_from_b, interpolated
+  /// to the fraction of period_frames.
+  PlanarMove travel;
   LoopEdge edge = LoopEdge::kNone;
 };
 
@@ -40,7 +42,7 @@ struct FindLoopsOptions {
   double min_apart_s = 0.1;
   /// A pair of strikes of the same foot comes before a pair without that is at most this
   /// much better: its feet are placed by the footprints of whole stances.
-  double strike_preference = 1.25;
+  double strike_preference = 1.0;
 };
 
 /// The range of cycle lengths that find_loops() searches.

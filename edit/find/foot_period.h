@@ -15,7 +15,8 @@ namespace marey::edit {
 /// The period with which the feet of a motion repeat their heights.
 struct FootPeriod {
   double period_s = 0.0;
-  double correlation = 0.0;  ///< Of the heights one period apart: 1 is exact repetition.
+  double correlation =
+      0.0;  ///< Correlation of heights one period apart: 1 is exact repetition.
   double deviation_m = 0.0;  ///< Standard deviation of the heights where it was found.
 };
 

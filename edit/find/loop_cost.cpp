@@ -13,8 +13,8 @@ namespace {
 
 using B = HumanBone;
 
-/// What the feature joints stand for, as shares of the mass: trunk with head, forearm
-/// with hand and part of the upper arm, leg below the hip (de Leva 1996).
+/// Parts of the body that the feature joints represent, as shares of the mass: trunk with
+/// head, forearm with hand and part of the upper arm, leg below the hip (de Leva 1996).
 constexpr double kTrunkShare = 0.50;
 constexpr double kWristShare = 0.05;
 constexpr double kAnkleShare = 0.20;
@@ -69,9 +69,11 @@ LoopCost::LoopCost(const Motion& motion,
   for (glm::dvec3& place : places_) place -= mean;
   velocities_.resize(places_.size(), glm::dvec3(0.0));
   const std::size_t points = weights_.size();
+  const int reach = velocity_reach(motion.rate.hz / stride);
   for (int k = 0; k < frames_ && frames_ > 1; ++k) {
-    const auto before = static_cast<std::size_t>(std::max(k - 1, 0)) * points;
-    const auto after = static_cast<std::size_t>(std::min(k + 1, frames_ - 1)) * points;
+    const auto before = static_cast<std::size_t>(std::max(k - reach, 0)) * points;
+    const auto after =
+        static_cast<std::size_t>(std::min(k + reach, frames_ - 1)) * points;
     const double per_s = motion.rate.hz * static_cast<double>(points) /
                          (stride * static_cast<double>(after - before));
     for (std::size_t p = 0; p < points; ++p) {

@@ -140,6 +140,11 @@ std::vector<double> joint_mass_shares(const Skeleton& skeleton,
   return share;
 }
 
+int velocity_reach(double hz) {
+  constexpr double kReach_s = 0.025;
+  return std::max(1, static_cast<int>(std::lround(kReach_s * hz)));
+}
+
 MatchPoints match_points(const Motion& motion, const retarget::BodyMap& map) {
   const std::vector<double> shares = joint_mass_shares(motion.skeleton, map);
   MatchPoints out;
@@ -156,10 +161,11 @@ MatchPoints match_points(const Motion& motion, const retarget::BodyMap& map) {
     for (const std::size_t j : joints) out.places.push_back(world[j].translation);
   }
   const int frames = static_cast<int>(motion.poses.size());
+  const int reach = velocity_reach(motion.rate.hz);
   out.velocities.resize(out.places.size(), glm::dvec3(0.0));
   for (int k = 0; k < frames && frames > 1; ++k) {
-    const int before = std::max(k - 1, 0);
-    const int after = std::min(k + 1, frames - 1);
+    const int before = std::max(k - reach, 0);
+    const int after = std::min(k + reach, frames - 1);
     const double per_s = motion.rate.hz / (after - before);
     for (std::size_t p = 0; p < joints.size(); ++p) {
       const auto at = [&](int frame) {

@@ -66,11 +66,15 @@ struct MatchPoints {
                                                     const retarget::BodyMap& map);
 
 /// Computes the points of all frames: the joints whose share of the mass is above 0.
-/// Velocities are central differences, one-sided at both ends, 0 for a single frame.
-/// Linear in frames times joints.
+/// Velocities are central differences over velocity_reach() frames before and after, less
+/// at both ends; 0 for a single frame. Linear in frames times joints.
 /// Precondition: `map` was made from the motion's skeleton.
 [[nodiscard]] MatchPoints match_points(const Motion& motion,
                                        const retarget::BodyMap& map);
+
+/// Returns the frames on either side over which velocities are measured: 25 ms, and at
+/// least 1. Shorter differences of fast captures are mostly noise.
+[[nodiscard]] int velocity_reach(double hz);
 
 struct MatchOptions {
   int half_window = 2;  ///< Frames before and after that are compared too: 2 is 5 frames.

@@ -16,7 +16,7 @@
 #include "core/base/assert.h"
 #include "core/base/frame_range.h"
 #include "core/pose.h"
-#include "retarget/contacts/frame_marks.h"
+#include "retarget/base/smooth_step.h"
 
 namespace marey::edit {
 namespace {
@@ -97,9 +97,11 @@ class CyclePaths {
 /// Signals of one cycle and its surroundings in the frame of the screw.
 struct CycleChannels {
   CycleFrame frame;
-  std::vector<glm::dvec3> root;
-  std::vector<std::vector<glm::dquat>>
-      joints;  ///< [joint][sample]; the root's in the screw.
+  std::vector<glm::dvec3> hips;
+  std::vector<glm::dquat> hips_turn;
+  /// [joint][sample]: in the parent. The root's follows from the hips', which may be far
+  /// from it.
+  std::vector<std::vector<glm::dquat>> joints;
   std::array<std::vector<glm::dvec3>, 2> ankles;
   std::array<std::vector<glm::dquat>, 2> feet;
   std::array<std::vector<glm::dquat>, 2> toes;
@@ -136,13 +138,25 @@ double share_of(const CycleFrame& frame, std::size_t sample) {
   return (static_cast<double>(sample) - frame.before) / frame.frames;
 }
 
+/// World frames of the hips, one per frame.
+std::vector<RigidTransform> hips_path(const Motion& motion, JointIndex hips) {
+  std::vector<RigidTransform> out;
+  std::vector<RigidTransform> world(motion.skeleton.joints.size());
+  for (const Pose& pose : motion.poses) {
+    world_from_joints(motion.skeleton, pose, world);
+    out.push_back(world[index(hips)]);
+  }
+  return out;
+}
+
 glm::dvec3 cycle_centre(const CycleSamples& cycle, const CycleSpec& spec) {
   const CycleScrew screw(spec.travel);
+  const std::vector<RigidTransform> hips =
+      hips_path(cycle.samples.motion, cycle.samples.map.hips());
   glm::dvec3 sum(0.0);
   for (int k = 0; k < cycle.frame.frames; ++k) {
     const auto t = static_cast<std::size_t>(cycle.frame.before + k);
-    sum += inverse(screw.at(share_of(cycle.frame, t)))(
-        cycle.samples.motion.poses[t].root_in_world);
+    sum += inverse(screw.at(share_of(cycle.frame, t)))(hips[t].translation);
   }
   return sum / static_cast<double>(cycle.frame.frames);
 }
@@ -154,13 +168,14 @@ CycleChannels channels_of(const CycleSamples& cycle, const CyclePaths& paths) {
   out.joints.resize(motion.skeleton.joints.size());
   std::array<std::vector<FootPlace>, 2> feet{foot_places(cycle.samples, 0),
                                              foot_places(cycle.samples, 1)};
+  const std::vector<RigidTransform> hips = hips_path(motion, cycle.samples.map.hips());
   for (std::size_t t = 0; t < motion.poses.size(); ++t) {
     const PlanarMove home = inverse(paths.old_path(share_of(out.frame, t)));
     const glm::dquat turn = home.rotation();
-    out.root.push_back(home(motion.poses[t].root_in_world));
+    out.hips.push_back(home(hips[t].translation));
+    out.hips_turn.push_back(turn * hips[t].rotation);
     for (std::size_t j = 0; j < out.joints.size(); ++j) {
-      const glm::dquat& q = motion.poses[t].parent_from_joint[j];
-      out.joints[j].push_back(j == 0 ? turn * q : q);
+      out.joints[j].push_back(motion.poses[t].parent_from_joint[j]);
     }
     for (std::size_t side = 0; side < 2; ++side) {
       const FootPlace& place = feet[side][t];
@@ -174,7 +189,8 @@ CycleChannels channels_of(const CycleSamples& cycle, const CyclePaths& paths) {
 
 void make_periodic(CycleChannels& channels) {
   const CycleFrame& frame = channels.frame;
-  make_periodic(std::span(channels.root), frame);
+  make_periodic(std::span(channels.hips), frame);
+  make_periodic(std::span(channels.hips_turn), frame);
   for (auto& joint : channels.joints) make_periodic(std::span(joint), frame);
   for (std::size_t side = 0; side < 2; ++side) {
     make_periodic(std::span(channels.ankles[side]), frame);
@@ -183,11 +199,63 @@ void make_periodic(CycleChannels& channels) {
   }
 }
 
+/// For each frame of three cycles the share of the path that moves a foot: during a
+/// stance that of its middle, so that a footprint moves as a whole; between stances it
+/// runs from one to the next. Whole cycles are added to it from copy to copy. A foot that
+/// always stands, or never, moves with the body.
+std::vector<double> foot_shares(const retarget::Contacts& contacts, std::size_t side) {
+  const int frames = contacts.frame_count;
+  std::vector<double> out;
+  for (int n = 0; n < 3 * frames; ++n) out.push_back(n);
+  // Two more cycles, so that each frame lies between two whole stances.
+  std::vector<FrameRange> runs = repeat_contacts(contacts, 5).feet[side].stance;
+  std::erase_if(runs, [&](const FrameRange& run) {
+    return run.first == 0 || run.last == 5 * frames - 1;
+  });
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const FrameRange& run = runs[k];
+    const double middle = 0.5 * (run.first + run.last);
+    const bool is_last = k + 1 == runs.size();
+    const int end = is_last ? run.last : runs[k + 1].first - 1;
+    for (int n = run.first; n <= end; ++n) {
+      const int of_three = n - frames;
+      if (of_three < 0 || of_three >= 3 * frames) continue;
+      double at = middle;
+      if (n > run.last) {
+        const double next = 0.5 * (runs[k + 1].first + runs[k + 1].last);
+        const double share =
+            static_cast<double>(n - run.last) / (runs[k + 1].first - run.last);
+        at += (next - middle) * retarget::smooth_step(share);
+      }
+      out[static_cast<std::size_t>(of_three)] = at - frames;
+    }
+  }
+  // Frames of the middle cycle.
+  for (double& at : out) at = at / frames - 1.0;
+  return out;
+}
+
 /// Three cycles on the new path, with planned feet; the middle one has shares 0 to 1.
 struct ThreeCycles {
   EditState state;
   std::array<std::vector<std::optional<FootPlace>>, 2> feet;
 };
+
+/// Sets the root so that the hips have this frame in the world.
+void put_hips(const Skeleton& skeleton,
+              JointIndex hips,
+              const RigidTransform& world_from_hips,
+              Pose& pose) {
+  RigidTransform root_from_hips;
+  for (std::size_t j = index(hips); j != 0; j = index(*skeleton.joints[j].parent)) {
+    const RigidTransform parent_from_joint{
+        pose.parent_from_joint[j], skeleton.joints[j].parent_from_joint.translation};
+    root_from_hips = parent_from_joint * root_from_hips;
+  }
+  const RigidTransform world_from_root = world_from_hips * inverse(root_from_hips);
+  pose.root_in_world = world_from_root.translation;
+  pose.parent_from_joint[0] = world_from_root.rotation;
+}
 
 ThreeCycles repeat_channels(const CycleChannels& channels,
                             const CyclePaths& paths,
@@ -198,21 +266,30 @@ ThreeCycles repeat_channels(const CycleChannels& channels,
   out.state.map = cycle.map;
   out.state.contacts = repeat_contacts(cycle.contacts, 3);
   const int frames = channels.frame.frames;
+  const std::array<std::vector<double>, 2> shares{foot_shares(cycle.contacts, 0),
+                                                  foot_shares(cycle.contacts, 1)};
   for (int n = 0; n < 3 * frames; ++n) {
     const auto t = static_cast<std::size_t>(channels.frame.before + n % frames);
     // The path first, then whole steps: copies differ by rounding alone.
+    const int copy = n / frames - 1;
     const double share = static_cast<double>(n % frames) / frames;
-    const PlanarMove path = power(paths.step(), n / frames - 1) * paths.new_path(share);
+    const PlanarMove path = power(paths.step(), copy) * paths.new_path(share);
     Pose pose;
-    pose.root_in_world = path(channels.root[t]);
     for (const auto& joint : channels.joints) pose.parent_from_joint.push_back(joint[t]);
     const glm::dquat turn = path.rotation();
-    pose.parent_from_joint[0] = turn * pose.parent_from_joint[0];
+    put_hips(cycle.motion.skeleton,
+             cycle.map.hips(),
+             {turn * channels.hips_turn[t], path(channels.hips[t])},
+             pose);
     out.state.motion.poses.push_back(std::move(pose));
     for (std::size_t side = 0; side < 2; ++side) {
-      out.feet[side].push_back(FootPlace{path(channels.ankles[side][t]),
-                                         turn * channels.feet[side][t],
-                                         turn * channels.toes[side][t]});
+      const double at = shares[side][static_cast<std::size_t>(n)] - copy;
+      const PlanarMove foot = power(paths.step(), copy) * paths.new_path(at) *
+                              inverse(paths.old_path(at)) * paths.old_path(share);
+      const glm::dquat foot_turn = foot.rotation();
+      out.feet[side].push_back(FootPlace{foot(channels.ankles[side][t]),
+                                         foot_turn * channels.feet[side][t],
+                                         foot_turn * channels.toes[side][t]});
     }
   }
   return out;
@@ -294,6 +371,9 @@ ClosedCycle close_cycle(const EditState& state, const CycleSpec& spec) {
   set_feet(three.state, three.feet);
   out.plant = plant_feet(three.state);
   out.travel = paths.step();
+  const glm::dvec3 hips =
+      paths.new_path(0.0)(channels.hips[static_cast<std::size_t>(before)]);
+  out.travel_m = glm::distance(hips, out.travel(hips));
   for (int k = 0; k < frames; ++k) {
     out.cycle.motion.poses[static_cast<std::size_t>(k)] =
         three.state.motion.poses[static_cast<std::size_t>(frames + k)];
@@ -327,6 +407,7 @@ SeamAcceleration seam_acceleration(const Motion& cycle, const PlanarMove& step) 
   for (std::size_t t = 1; t + 1 < places.size(); ++t) {
     double of_frame = 0.0;
     for (std::size_t j = 0; j < joints; ++j) {
+      if (!cycle.skeleton.joints[j].bone) continue;
       const glm::dvec3 bend = places[t - 1][j] - 2.0 * places[t][j] + places[t + 1][j];
       of_frame = std::max(of_frame, glm::length(bend));
     }

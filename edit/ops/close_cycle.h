@@ -36,6 +36,7 @@ struct ClosedCycle {
   /// Contacts of the cycle, also where `cycle` has none.
   retarget::Contacts contacts;
   PlanarMove travel;
+  double travel_m = 0.0;  ///< Distance that the hips travel in one cycle.
   PlantReport plant;
 };
 
@@ -54,9 +55,10 @@ struct ClosedCycle {
 /// the same screw; a straight line of the same length along the travel of the whole
 /// cycle; or no path. In the middle of the cycle the body keeps its place and direction.
 ///
-/// Legs follow the feet, and plant_feet() gives every stance of three consecutive cycles
-/// one footprint. So the footprints of a cycle are those of the one before it moved by
-/// `travel`. The contacts are the source's.
+/// Each footprint moves as a whole, with the path at the middle of its stance; a foot
+/// that swings goes from one to the next. Legs follow the feet, and plant_feet() gives
+/// every stance of three consecutive cycles one footprint. So the footprints of a cycle
+/// are those of the one before it moved by `travel`. The contacts are the source's.
 ///
 /// In place (CycleDrift::kNone) standing feet move backwards with the floor: the cycle
 /// has no contacts, so that no later operation plants them. Linear in frames.
@@ -68,7 +70,8 @@ struct ClosedCycle {
 [[nodiscard]] retarget::Contacts repeat_contacts(const retarget::Contacts& contacts,
                                                  int count);
 
-/// Accelerations of the joint that accelerates most, as second differences. [m/s^2]
+/// Accelerations of the bone's joint that accelerates most, as second differences.
+/// [m/s^2]
 struct SeamAcceleration {
   double seam = 0.0;    ///< The larger of the two frames next to the seam.
   double inside = 0.0;  ///< 95th percentile of all other frames.

@@ -8,8 +8,8 @@
 
 namespace marey::edit {
 
-/// Adds a constraint, or those that the motion shows, and adapts the motion if `adapt` is
-/// set.
+/// Adds a constraint, or detects constraints in the motion, and adapts the motion if
+/// `adapt` is set.
 ///
 /// A constraint: `from` and `to` (without them the operation's span) are the interval in
 /// which it is fully active; it fades before and after it by its own durations, or if

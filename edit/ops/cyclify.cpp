@@ -14,9 +14,9 @@
 
 #include "edit/find/find_loops.h"
 #include "edit/ops/close_cycle.h"
+#include "edit/state/check_op_keys.h"
 #include "edit/state/resample_state.h"
 #include "edit/state/resolve_moment.h"
-#include <glm/geometric.hpp>
 
 #include "core/base/format_text.h"
 #include "core/base/frame_range.h"
@@ -28,6 +28,7 @@ namespace {
 constexpr double kMaxGap_legs = 0.15;
 /// A joint this far off is worth a warning: a hand may be on the other side of the body.
 constexpr double kMaxJointGap_legs = 0.35;
+constexpr double kNearlyAsGood = 1.1;
 constexpr int kMaxCycles = 1000;
 constexpr double kDegrees = 57.295779513082320877;
 
@@ -36,13 +37,7 @@ Error bad_cyclify(std::string cause, std::string next) {
 }
 
 Status check_cyclify(const CyclifyOp& op, const EditOp& common, const EditState& state) {
-  if (!common.groups.empty()) {
-    return bad_cyclify("groups: a loop is made of the whole body", "remove groups");
-  }
-  if (common.blend_s != 0.0) {
-    return bad_cyclify("blend_s: a loop has no fades at the ends of its span",
-                       "remove blend_s");
-  }
+  if (const Status keys = check_op_keys(common, {.span = true}); !keys) return keys;
   if (op.cycles < 1 || op.cycles > kMaxCycles) {
     return bad_cyclify("cycles is " + std::to_string(op.cycles),
                        "give a number from 1 to " + std::to_string(kMaxCycles));
@@ -79,7 +74,7 @@ ChosenCycle chosen(const EditState& state, const CyclifyOp& op, LoopCandidate lo
   out.spec.first = loop.first;
   out.spec.period_frames = std::min(
       loop.period_frames, static_cast<double>(state.frame_count() - 1 - loop.first));
-  out.spec.travel = loop.match.a_from_b;
+  out.spec.travel = loop.travel;
   out.spec.drift = op.drift;
   out.loop = std::move(loop);
   return out;
@@ -96,11 +91,11 @@ Result<ChosenCycle> given_cycle(const CyclifyOp& op, const EditState& state) {
   }
   const int last = std::min(static_cast<int>(std::lround(*to)), state.frame_count() - 1);
   const int first = std::min(static_cast<int>(std::lround(*from)), last - 1);
-  ChosenCycle out = chosen(state, op, compare_loop(state, first, last));
+  LoopCandidate loop = compare_loop(state, first, last);
   // The frames as given, not the nearest better ones.
-  out.spec.first = *from;
-  out.spec.period_frames = *to - *from;
-  return out;
+  loop.period_frames = last - first;
+  loop.travel = loop.match.a_from_b;
+  return chosen(state, op, std::move(loop));
 }
 
 Error no_cycle(const EditState& state, const FindLoopsOptions& options) {
@@ -115,6 +110,18 @@ Error no_cycle(const EditState& state, const FindLoopsOptions& options) {
                   periods->min_frames / state.motion.rate.hz,
                   periods->max_frames / state.motion.rate.hz),
       "widen min_period_s and max_period_s, or give from and to");
+}
+
+/// Returns the best candidate, or another one that is nearly as good if that has frames
+/// on both sides over which the seam can be blended.
+const LoopCandidate& best_with_room(const std::vector<LoopCandidate>& loops,
+                                    const EditState& state) {
+  const double room = CycleSpec{}.blend_s * state.motion.rate.hz + 1.0;
+  for (const LoopCandidate& loop : loops) {
+    if (loop.match.distance_m > kNearlyAsGood * loops.front().match.distance_m) break;
+    if (loop.first >= room && loop.last + room < state.frame_count()) return loop;
+  }
+  return loops.front();
 }
 
 Result<ChosenCycle> best_cycle(const CyclifyOp& op,
@@ -132,9 +139,9 @@ Result<ChosenCycle> best_cycle(const CyclifyOp& op,
       return bad_cyclify("the span has less than 3 frames", "choose a longer span");
     }
   }
-  std::vector<LoopCandidate> loops = find_loops(state, options);
+  const std::vector<LoopCandidate> loops = find_loops(state, options);
   if (loops.empty()) return no_cycle(state, options);
-  return chosen(state, op, std::move(loops.front()));
+  return chosen(state, op, best_with_room(loops, state));
 }
 
 Status check_gap(const CyclifyOp& op, const EditState& state, const LoopCandidate& loop) {
@@ -247,7 +254,6 @@ void report_cycle(const ChosenCycle& chosen,
   const int frames = cycle_frames(chosen.spec);
   const SeamAcceleration seam = seam_acceleration(closed.cycle.motion, closed.step);
   const PlanarMove& travel = chosen.spec.travel;
-  const glm::dvec3 start = closed.three.poses.front().root_in_world;
   figure("first_frame", chosen.spec.first);
   figure("period_frames", chosen.spec.period_frames);
   figure("frames", frames);
@@ -257,7 +263,7 @@ void report_cycle(const ChosenCycle& chosen,
   figure("gap_worst_mm", 1e3 * match.worst_m);
   figure("velocity_gap_m_per_s", match.rms_velocity_m_per_s);
   figure("turn_deg", kDegrees * travel.turn_rad);
-  figure("travel_m", glm::distance(start, closed.travel(start)));
+  figure("travel_m", closed.travel_m);
   figure("seam_acceleration_m_per_s2", seam.seam);
   figure("inside_acceleration_p95_m_per_s2", seam.inside);
   figure("displaced_mm", 1e3 * displaced_m);

@@ -24,10 +24,10 @@ namespace {
 
 constexpr double kMaxGain = 10.0;
 constexpr int kMinFrames = 8;
-constexpr double kShown_m = 1e-4;
-constexpr double kToMm = 1e3;
+constexpr double kExaggerateShown_m = 1e-4;
+constexpr double kExaggerateToMm = 1e3;
 
-/// What replaces the lower low-pass version if there is no lower limit.
+/// Replacement of the lower low-pass version if there is no lower limit.
 enum class Baseline { kMean, kLine };
 
 Status check_band(const ExaggerateOp& op, const EditState& state) {
@@ -160,23 +160,23 @@ Result<EditState> apply_exaggerate(const ExaggerateOp& op,
   if (moves_feet(groups)) {
     const HoldFeetReport held = hold_feet(
         state, state.motion, weights->frames, keep_standing_feet(state), out.motion);
-    report.figures.emplace_back("lowered_mm", kToMm * held.lowered_m);
-    report.figures.emplace_back("feet_missed_mm", kToMm * held.missed_m);
-    if (held.missed_m > kShown_m) {
+    report.figures.emplace_back("lowered_mm", kExaggerateToMm * held.lowered_m);
+    report.figures.emplace_back("feet_missed_mm", kExaggerateToMm * held.missed_m);
+    if (held.missed_m > kExaggerateShown_m) {
       report.findings.push_back(
           fair_finding(
               "reach",
               "legs",
               "a standing foot leaves its place by " +
-                  format_text("%.0f mm", kToMm * held.missed_m) + " at " +
+                  format_text("%.0f mm", kExaggerateToMm * held.missed_m) + " at " +
                   format_text("%.2f s", held.missed_frame / state.motion.rate.hz),
               "use a smaller gain, or groups without the root")
-              .measured(kToMm * held.missed_m, std::nullopt, "mm"));
+              .measured(kExaggerateToMm * held.missed_m, std::nullopt, "mm"));
     }
   }
   const double largest_m =
       mark_displaced(out, state.motion, weights->frames, context.index);
-  report.figures.emplace_back("largest_mm", kToMm * largest_m);
+  report.figures.emplace_back("largest_mm", kExaggerateToMm * largest_m);
   return out;
 }
 

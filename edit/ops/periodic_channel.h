@@ -12,9 +12,10 @@ namespace marey::edit {
 /// Where a cycle lies in a channel of samples, and how its ends are joined.
 struct CycleFrame {
   int before = 0;  ///< Samples before the first one of the cycle.
-  int frames = 0;  ///< Of the cycle: sample `before + frames` repeats sample `before`.
-  int after = 0;   ///< Samples from that one on, itself included; at least 1.
-  int blend = 1;   ///< Samples on either side of both ends over which they are blended.
+  int frames =
+      0;  ///< Samples of the cycle: sample `before + frames` repeats sample `before`.
+  int after = 0;  ///< Samples from that one on, itself included; at least 1.
+  int blend = 1;  ///< Samples on either side of both ends over which they are blended.
 };
 
 /// Makes a channel periodic, in place.

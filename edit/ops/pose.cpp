@@ -17,7 +17,7 @@
 namespace marey::edit {
 namespace {
 
-/// Returns the weights of the bell about a frame.
+/// Returns the weights about a frame.
 OpWeights bell_weights(int frame_count, double at_frame, double width_frames) {
   OpWeights out;
   out.weight.resize(static_cast<std::size_t>(frame_count), 0.0);

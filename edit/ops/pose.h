@@ -11,7 +11,7 @@ namespace marey::edit {
 /// Sets a key: displaces a bone at an instant, with a smooth displacement around it
 /// (displacement map; Witkin & Popovic 1995, "Motion warping").
 ///
-/// The displacement's share is a bell: smooth_step(1 - |t - at| / width_s), 1 at the
+/// The share of the displacement is smooth_step(1 - |t - at| / width_s), 1 at the
 /// instant and 0 from width_s on, with continuous speed and acceleration. Frames outside
 /// keep their pose to the bit. What is displaced, and what happens to the feet:
 /// displace_bone().

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "edit/find/find_splice.h"
-#include "edit/ops/choose_splice.h"
-#include "edit/ops/splice_carry.h"
-#include "edit/ops/splice_overlap.h"
-#include "edit/ops/splice_poses.h"
-#include "edit/ops/splice_source.h"
+#include "edit/splice/choose_splice.h"
+#include "edit/splice/splice_carry.h"
+#include "edit/splice/splice_overlap.h"
+#include "edit/splice/splice_poses.h"
+#include "edit/splice/splice_source.h"
 #include "edit/state/check_op_keys.h"
 #include "edit/state/move_state.h"
 #include "edit/state/plant_near.h"
@@ -181,31 +181,43 @@ void report_planted(const PlantNearReport& planted, OpReport& report) {
                    "choose frames that fit better with at and enter_at"));
 }
 
-// Changes the poses of the joined motion round the join, and marks what was invented.
+// Marks what was invented round the join, and touches what follows.
+void mark_join(const FrameRange& changed,
+               const FrameRange& moved,
+               const Motion& plain,
+               int op,
+               OpReport& report,
+               EditState& out) {
+  const double before_m = mark_displaced(out, plain, {moved.first, changed.first}, op);
+  mark_invented(out, {changed.first + 1, changed.last - 1}, op);
+  const int rest = std::max(changed.last, changed.first + 1);
+  const double after_m = mark_displaced(out, plain, {rest, moved.last}, op);
+  touch(out.lineage, {std::max(moved.last + 1, rest), out.frame_count() - 1}, op);
+  report.figures.emplace_back("displaced_mm", 1e3 * std::max(before_m, after_m));
+}
+
+// Changes the poses of the joined motion round the join.
 void smooth_join(const SpliceParts& parts,
                  int blend_frames,
                  const OpContext& context,
                  OpReport& report,
                  EditState& out) {
   const Motion plain = out.motion;
-  const int start = parts.frames.start;
-  FrameRange changed{start, start + parts.overlap.last()};
-  const bool has_overlap = parts.overlap.last() > 0;
-  if (has_overlap) {
+  const FrameRange overlap{parts.frames.start, parts.frames.start + parts.overlap.last()};
+  FrameRange changed = overlap;
+  if (parts.overlap.last() > 0) {
     mix_overlap(parts.first, parts.second, parts.frames, out);
   } else {
-    changed = displace_join(parts.first, parts.second, parts.frames, blend_frames, out);
-    if (changed.last < changed.first) changed = {start, start};
+    changed =
+        united(changed,
+               displace_join(parts.first, parts.second, parts.frames, blend_frames, out));
   }
   const PlantNearReport planted = plant_feet_near(out, changed);
   report_planted(planted, report);
   const int sink = static_cast<int>(std::ceil(kSpliceSink_s * out.motion.rate.hz));
   const FrameRange moved =
       widened(united(changed, planted.changed), sink, out.frame_count());
-  const double moved_m = mark_displaced(out, plain, moved, context.index);
-  if (has_overlap)
-    mark_invented(out, {changed.first + 1, changed.last - 1}, context.index);
-  report.figures.emplace_back("displaced_mm", 1e3 * moved_m);
+  mark_join(overlap, moved, plain, context.index, report, out);
 }
 
 void report_gap(const SpliceOp& op,
@@ -298,11 +310,12 @@ Result<EditState> apply_splice(const SpliceOp& op,
   }
   parts.frames.weight = parts.overlap.weight;
   EditState out = join_states(parts.first, parts.second, parts.frames, report);
-  if (!parts.is_seamless) {
-    const double blend_s = context.op.blend_s > 0.0 ? context.op.blend_s : kSpliceBlend_s;
-    smooth_join(parts, static_cast<int>(std::lround(blend_s * hz)), context, report, out);
+  if (parts.is_seamless) {
+    touch(out.lineage, {parts.frames.join + 1, out.frame_count() - 1}, context.index);
+    return out;
   }
-  touch(out.lineage, {parts.frames.join + 1, out.frame_count() - 1}, context.index);
+  const double blend_s = context.op.blend_s > 0.0 ? context.op.blend_s : kSpliceBlend_s;
+  smooth_join(parts, static_cast<int>(std::lround(blend_s * hz)), context, report, out);
   return out;
 }
 

@@ -22,7 +22,8 @@ namespace {
 
 constexpr double kFade_s = 0.08;  // Half of the fade: smooth_cover() reaches twice that.
 constexpr double kLower_s = 0.1;  // The root is lowered this long before.
-constexpr double kMaxExtension = 0.999;  // Of a leg, unless it was straighter before.
+constexpr double kMaxExtension =
+    0.999;  // Maximum extension of a leg, unless it was straighter before.
 constexpr double kUnmoved_m = 1e-12;
 
 /// Target of one foot in one frame, and the longest leg that may reach it.

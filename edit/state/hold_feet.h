@@ -12,7 +12,7 @@
 
 namespace marey::edit {
 
-/// How far each foot keeps its place: 1 entirely, 0 not at all. Left, right; one value
+/// Share of its place that each foot keeps: 1 all, 0 none. Left, right; one value
 /// per frame.
 using KeptFeet = std::array<std::vector<double>, 2>;
 

@@ -59,7 +59,7 @@ double moved_m(const FootPlace& a, const FootPlace& b) {
 
 bool is_turned(const glm::dquat& a, const glm::dquat& b) {
   const double dot = glm::dot(a, b);
-  return 1.0 - dot * dot > kUnturned;
+  return 1.0 - dot * dot / (glm::dot(a, a) * glm::dot(b, b)) > kUnturned;
 }
 
 bool is_same_place(const FootPlace& a, const FootPlace& b) {

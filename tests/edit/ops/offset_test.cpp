@@ -14,7 +14,7 @@
 namespace marey::edit {
 namespace {
 
-constexpr int kFrames = 240;  // 4 s.
+constexpr int kOffsetFrames = 240;  // 4 s.
 
 OpScene<OffsetOp> lowered_hips() {
   OffsetOp op;
@@ -26,11 +26,11 @@ OpScene<OffsetOp> lowered_hips() {
 }
 
 TEST(OffsetOp, IsConstantInItsSpanAndAbsentOutsideOfItsFades) {
-  const EditState state = state_of(standing_motion(kFrames));
+  const EditState state = state_of(standing_motion(kOffsetFrames));
   OpScene<OffsetOp> scene = lowered_hips();
   const auto out = scene.run(apply_offset, state);
   ASSERT_TRUE(out) << out.error().message();
-  for (std::size_t t = 0; t < kFrames; ++t) {
+  for (std::size_t t = 0; t < kOffsetFrames; ++t) {
     const double moved =
         out->motion.poses[t].root_in_world.y - state.motion.poses[t].root_in_world.y;
     if (t >= 90 && t <= 150) {
@@ -47,13 +47,13 @@ TEST(OffsetOp, IsConstantInItsSpanAndAbsentOutsideOfItsFades) {
 // The third difference of a C2 curve of fifth order is bounded by its third derivative
 // times the cubed step; a jump of the acceleration would be about 60 times as large.
 TEST(OffsetOp, FadesWithContinuousAcceleration) {
-  const EditState state = state_of(standing_motion(kFrames));
+  const EditState state = state_of(standing_motion(kOffsetFrames));
   OpScene<OffsetOp> scene = lowered_hips();
   const auto out = scene.run(apply_offset, state);
   ASSERT_TRUE(out);
   const auto y = [&](std::size_t t) { return out->motion.poses[t].root_in_world.y; };
   double largest = 0.0;
-  for (std::size_t t = 0; t + 3 < kFrames; ++t) {
+  for (std::size_t t = 0; t + 3 < kOffsetFrames; ++t) {
     largest = std::max(largest, std::abs(y(t + 3) - 3 * y(t + 2) + 3 * y(t + 1) - y(t)));
   }
   const double step_s = 1.0 / 60.0;
@@ -61,7 +61,7 @@ TEST(OffsetOp, FadesWithContinuousAcceleration) {
 }
 
 TEST(OffsetOp, DisjointSpansCommuteToTheBit) {
-  const EditState state = state_of(standing_motion(kFrames));
+  const EditState state = state_of(standing_motion(kOffsetFrames));
   OpScene<OffsetOp> a = lowered_hips();
   a.op.span = {AtTime{0.5}, AtTime{1.0}};
   a.op.blend_s = 0.3;
@@ -77,7 +77,7 @@ TEST(OffsetOp, DisjointSpansCommuteToTheBit) {
   const auto ab = b.run(apply_offset, *first_a);
   const auto ba = a.run(apply_offset, *first_b);
   ASSERT_TRUE(ab && ba);
-  for (std::size_t t = 0; t < kFrames; ++t) {
+  for (std::size_t t = 0; t < kOffsetFrames; ++t) {
     EXPECT_TRUE(same_pose(ab->motion.poses[t], ba->motion.poses[t])) << t;
   }
 }

@@ -77,7 +77,11 @@ class RecipeDice {
     const bool frames = chance();
     for (int left = 1 + below(max_count); left > 0; --left) {
       time_s += 0.01 + between(0.0, 2.0);
-      all.push_back(frames ? Moment(AtFrame{time_s}) : Moment(AtTime{time_s}));
+      if (frames) {
+        all.emplace_back(AtFrame{time_s});
+      } else {
+        all.emplace_back(AtTime{time_s});
+      }
     }
     return all;
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/ops/splice_carry.h"
+#include "edit/splice/splice_carry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "edit/ops/splice_contacts.h"
+#include "edit/splice/splice_contacts.h"
 #include "edit/state/resample_state.h"
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/ops/splice_poses.h"
+#include "edit/splice/splice_poses.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/ops/splice_overlap.h"
+#include "edit/splice/splice_overlap.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/ops/choose_splice.h"
+#include "edit/splice/choose_splice.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/ops/splice_contacts.h"
+#include "edit/splice/splice_contacts.h"
 
 #include <algorithm>
 #include <cstddef>

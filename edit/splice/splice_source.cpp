@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/ops/splice_source.h"
+#include "edit/splice/splice_source.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "edit/signal/choose_smoothing.h"
+
+#include "core/edit/edit_ops.h"
+
+namespace marey::edit {
+
+/// One filter for all channels of a group: linear, the same for each channel.
+///
+/// Impacts divide the channels into pieces that are filtered apart. Within 25 ms of an
+/// impact the result goes over to the unfiltered channel, which it equals at the impact.
+class ChannelFilter {
+ public:
+  /// Chooses the filter for a group. The channels are used for the choice only; those
+  /// that are constant (within 1e-9) do not count. `weights` is empty or has one entry
+  /// per sample; a Butterworth filter does not use it. `impacts` ascend. Spline: the
+  /// penalty is the median over pieces of at least 20 samples, by length; of the whole
+  /// channels if there is none. Precondition: all channels have the same number of
+  /// samples, at least 20; order and cut-off of `op` are valid.
+  ChannelFilter(const FilterOp& op,
+                std::span<const std::vector<double>> channels,
+                std::span<const double> weights,
+                std::span<const int> impacts,
+                double rate_hz);
+
+  /// Returns the frequency of half power; nullopt: no channel can be filtered, and run()
+  /// changes nothing. [Hz]
+  [[nodiscard]] std::optional<double> cutoff_hz() const { return cutoff_hz_; }
+
+  /// Filters channels in place. Linear in samples.
+  void run(std::span<std::vector<double>> channels);
+
+ private:
+  struct Piece {
+    std::size_t first = 0;
+    std::size_t count = 0;
+    std::optional<SmoothingSpline> spline;  ///< nullopt: too short, or Butterworth.
+  };
+
+  void choose_spline(std::span<const std::vector<double>> channels,
+                     std::span<const double> weights);
+  void choose_butterworth(std::span<const std::vector<double>> channels);
+
+  FilterOp op_;
+  double rate_hz_;
+  std::vector<Piece> pieces_;
+  std::vector<double> raw_share_;  ///< Per sample; empty without impacts.
+  std::optional<double> cutoff_hz_;
+};
+
+}  // namespace marey::edit

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "edit/filter/smooth_runs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "edit/signal/choose_smoothing.h"
+#include "edit/signal/smoothing_spline.h"
+#include <glm/geometric.hpp>
+
+namespace marey::edit {
+namespace {
+
+using RunChannels = std::array<std::vector<double>, 3>;
+
+RunChannels channels_of(const VectorRun& run) {
+  RunChannels out;
+  for (const glm::dvec3& value : run.values) {
+    for (int axis = 0; axis < 3; ++axis) {
+      out[static_cast<std::size_t>(axis)].push_back(value[axis]);
+    }
+  }
+  return out;
+}
+
+/// Returns a robust estimate of the noise per axis.
+double noise_of(const VectorRun& run) {
+  std::vector<double> bends;
+  for (std::size_t k = 1; k + 1 < run.values.size(); ++k) {
+    bends.push_back(
+        glm::length(run.values[k + 1] - 2.0 * run.values[k] + run.values[k - 1]));
+  }
+  const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
+  std::nth_element(bends.begin(), middle, bends.end());
+  // The median length of three normal components, and a second difference's variance.
+  constexpr double kMedianLength = 1.538;
+  return *middle / (kMedianLength * std::sqrt(6.0));
+}
+
+/// Returns whether a run can be smoothed, and has something to smooth.
+bool is_noisy(const VectorRun& run, double min_noise) {
+  constexpr std::size_t kMinFrames = 5;
+  return run.values.size() >= kMinFrames && noise_of(run) >= min_noise;
+}
+
+struct RunPenalty {
+  double penalty = 0.0;
+  std::size_t frames = 0;
+};
+
+/// Returns the median of the penalties that suit the long runs.
+double shared_penalty(std::span<const VectorRun> runs, double min_noise, double hz) {
+  std::vector<RunPenalty> found;
+  std::size_t total = 0;
+  for (const VectorRun& run : runs) {
+    if (run.values.size() < kMinSmoothingSamples || !is_noisy(run, min_noise)) continue;
+    std::vector<std::vector<double>> varying;
+    for (auto& channel : channels_of(run)) {
+      constexpr double kConstant = 1e-9;
+      const auto [low, high] = std::minmax_element(channel.begin(), channel.end());
+      if (*high - *low > kConstant) varying.push_back(channel);
+    }
+    if (varying.empty()) continue;
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < varying.size(); ++i) all.push_back(i);
+    const std::vector<std::vector<std::size_t>> groups{all};
+    const auto penalty = smooth_groups(varying, groups, hz).groups[0].penalty;
+    if (!penalty) continue;
+    found.push_back({*penalty, run.values.size()});
+    total += run.values.size();
+  }
+  constexpr double kCutoff_hz = 6.0;
+  if (found.empty()) return penalty_of_half_power(kCutoff_hz, hz, {});
+  std::sort(found.begin(), found.end(), [](const RunPenalty& a, const RunPenalty& b) {
+    return a.penalty < b.penalty;
+  });
+  std::size_t sum = 0;
+  for (const RunPenalty& entry : found) {
+    sum += entry.frames;
+    if (2 * sum >= total) return entry.penalty;
+  }
+  return found.back().penalty;
+}
+
+}  // namespace
+
+void smooth_runs(std::span<VectorRun> runs, double min_noise, double hz) {
+  const double penalty = shared_penalty(runs, min_noise, hz);
+  for (VectorRun& run : runs) {
+    if (!is_noisy(run, min_noise)) continue;
+    SmoothingSpline spline(run.values.size());
+    spline.set_penalty(penalty);
+    RunChannels channels = channels_of(run);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      (void)spline.fit(channels[axis], channels[axis]);
+      for (std::size_t k = 0; k < run.values.size(); ++k) {
+        run.values[k][static_cast<int>(axis)] = channels[axis][k];
+      }
+    }
+  }
+}
+
+VectorRun places_in_run(std::span<const glm::dvec3> places,
+                        const glm::dquat& first_rotation,
+                        const FrameRange& frames) {
+  VectorRun out{frames, {}};
+  const auto first = static_cast<std::size_t>(frames.first);
+  for (auto t = first; t <= static_cast<std::size_t>(frames.last); ++t) {
+    out.values.push_back(glm::conjugate(first_rotation) * (places[t] - places[first]));
+  }
+  return out;
+}
+
+}  // namespace marey::edit

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/base/frame_range.h"
+
+namespace marey::edit {
+
+/// A vector in each frame of a run of frames.
+struct VectorRun {
+  FrameRange frames;
+  std::vector<glm::dvec3> values;
+};
+
+/// Smooths runs, each apart, by cubic splines with one penalty: the median over the runs
+/// of at least 20 frames of what generalised cross-validation chooses, by length; without
+/// such a run, half power at 6 Hz. Runs of fewer than 5 frames, and those with less noise
+/// than `min_noise`, are left as they are: the noise per axis is estimated by the median
+/// of the second differences' lengths, so some frames of a planted foot that rolls do not
+/// count. Linear in frames. The axes of the values influence the choice.
+/// Precondition: hz > 0.
+void smooth_runs(std::span<VectorRun> runs, double min_noise, double hz);
+
+/// Returns the places of a foot over a run, along the foot's axes at its first frame.
+[[nodiscard]] VectorRun places_in_run(std::span<const glm::dvec3> places,
+                                      const glm::dquat& first_rotation,
+                                      const FrameRange& frames);
+
+}  // namespace marey::edit
