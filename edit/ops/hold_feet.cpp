@@ -192,8 +192,8 @@ StoodFoot stood_foot(std::span<const FootPlace> before,
   for (const FrameRange& run : out.flat) {
     turns.push_back(turns_in_run(before, &FootPlace::foot, run));
   }
-  constexpr double kMinNoise_m = 2e-5;
-  constexpr double kMinNoise_rad = 1e-4;
+  constexpr double kMinNoise_m = 1e-4;
+  constexpr double kMinNoise_rad = 5e-4;
   smooth_runs(places, kMinNoise_m, hz);
   smooth_runs(turns, kMinNoise_rad, hz);
   for (std::size_t i = 0; i < places.size(); ++i) {
