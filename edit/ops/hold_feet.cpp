@@ -132,7 +132,7 @@ std::vector<FrameRange> to_impacts(std::vector<FrameRange> runs,
 struct StoodFoot {
   HeldShift ankle;                              ///< In contacts of the heel. World.
   HeldShift ball;                               ///< In contacts of the ball. World.
-  std::vector<std::optional<glm::dquat>> foot;  ///< Of a flat foot.
+  std::vector<std::optional<glm::dquat>> foot;  ///< Only while the foot is flat.
   std::vector<std::optional<glm::dquat>> toes;  ///< In contacts of the ball.
   std::vector<FrameRange> flat;
 };
@@ -216,7 +216,7 @@ StoodFoot stood_foot(std::span<const FootPlace> before,
   return out;
 }
 
-/// Returns the turns from filtered rotations to those that are held.
+/// Returns the turns from filtered to held rotations.
 std::vector<glm::dvec3> held_turns(std::span<const FootPlace> before,
                                    std::span<const FootPlace> after,
                                    glm::dquat FootPlace::*part,

@@ -48,7 +48,7 @@ RigidTransform levelling(const FloorFit& floor, double floor_height_m) {
   return out;
 }
 
-/// What levelling did to the motion.
+/// Result of levelling.
 struct Levelled {
   FloorFit floor;               ///< As found last.
   RigidTransform new_from_old;  ///< All rounds.

@@ -36,7 +36,7 @@ struct OpScene {
     return apply(std::get<Op>(op.parameters), OpContext{op, 0, inputs}, state, report);
   }
 
-  /// A figure of the report; NaN: there is none.
+  /// Returns a figure of the report; NaN if there is none.
   [[nodiscard]] double figure(std::string_view name) const {
     for (const auto& [key, value] : report.figures) {
       if (key == name) return value;
