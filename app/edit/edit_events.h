@@ -70,7 +70,10 @@ struct EditExported {
   std::vector<Finding> findings;
 };
 
-/// Receives the results of an EditSession, on its worker's thread, one at a time.
+class EditSession;
+
+/// Receives the results of an EditSession, on its worker's thread unless stated, one at a
+/// time.
 class EditListener {
  public:
   EditListener() = default;
@@ -78,6 +81,8 @@ class EditListener {
   EditListener(const EditListener&) = delete;
   EditListener& operator=(const EditListener&) = delete;
 
+  /// There is a new revision. On the thread of the session, before its rendering starts.
+  virtual void on_revision(const EditSession& session) = 0;
   virtual void on_progress(const EditProgress& progress) = 0;
   /// A revision is rendered as a whole.
   virtual void on_rendered(const EditResult& result) = 0;
@@ -86,7 +91,7 @@ class EditListener {
                           const EditResult& result) = 0;
   virtual void on_loops(const EditAsker& asker, const EditLoops& loops) = 0;
   virtual void on_exported(const EditAsker& asker, const EditExported& exported) = 0;
-  /// A request of a page failed. May also be called by the thread of the session.
+  /// A request of a page failed. Also on the thread of the session.
   virtual void on_failed(const EditAsker& asker, const Error& error) = 0;
 };
 

@@ -51,7 +51,6 @@ Status serve_edit(const EditPageArguments& args,
       EditClock::now() + std::chrono::duration_cast<EditClock::duration>(
                              std::chrono::duration<double>(args.seconds.value_or(0.0)));
   EditPageDesk desk(session, server);
-  desk.publish_revision();
   std::optional<WebRoot> root;
   if (!args.page.web_root.empty()) root.emplace(args.page.web_root);
   std::vector<live::ReceivedText> texts;
@@ -109,6 +108,10 @@ std::deque<EditPagePublisher::Paths>& EditPagePublisher::previews_of(std::uint64
   return out;
 }
 
+void EditPagePublisher::on_revision(const EditSession& session) {
+  server_.publish_text(live::PageMessage::kRevision, revision_json(session));
+}
+
 void EditPagePublisher::on_progress(const EditProgress& progress) {
   server_.publish_text(live::PageMessage::kProgress, progress_json(progress));
 }
@@ -156,12 +159,6 @@ void EditPagePublisher::on_exported(const EditAsker& asker,
 
 void EditPagePublisher::on_failed(const EditAsker& asker, const Error& error) {
   server_.queue_text(client_of(asker), edit_error_json(asker, error.message()));
-}
-
-void EditPageDesk::publish_revision() {
-  if (published_ == session_.revision().number) return;
-  published_ = session_.revision().number;
-  server_.publish_text(live::PageMessage::kRevision, revision_json(session_));
 }
 
 /// Returns the answer; empty: none now.
@@ -214,7 +211,6 @@ void EditPageDesk::answer(const live::ReceivedText& text) {
   asker.about = request->type;
   asker.id = request->id;
   const std::string answer = carry_out(asker, *request);
-  publish_revision();
   if (!answer.empty()) server_.queue_text(text.client, answer);
 }
 

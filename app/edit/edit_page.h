@@ -42,6 +42,7 @@ class EditPagePublisher : public EditListener {
   /// `server` must outlive the publisher.
   explicit EditPagePublisher(live::WebServer& server) : server_(server) {}
 
+  void on_revision(const EditSession& session) override;
   void on_progress(const EditProgress& progress) override;
   void on_rendered(const EditResult& result) override;
   void on_preview(const EditAsker& asker,
@@ -73,9 +74,7 @@ class EditPageDesk {
   EditPageDesk(EditSession& session, live::WebServer& server)
       : session_(session), server_(server) {}
 
-  /// Sends the newest revision to all pages, unless it was sent.
-  void publish_revision();
-  /// Carries out one message. Answers go to its page, a new revision to all pages.
+  /// Carries out one message. Answers go to its page.
   void answer(const live::ReceivedText& text);
 
  private:
@@ -84,7 +83,6 @@ class EditPageDesk {
 
   EditSession& session_;
   live::WebServer& server_;
-  int published_ = 0;  ///< Revision.
 };
 
 }  // namespace marey::app

@@ -131,11 +131,13 @@ EditSession::EditSession(Opened opened,
       facts_(facts_of(recipe_, opened.files)),
       remarks_(opened.files.remarks),
       can_write_(!options.output.out.empty()),
+      listener_(listener),
       worker_(std::move(opened.files),
               recipe_,
               read_options(options),
               options.output,
               listener) {
+  listener_.on_revision(*this);
   worker_.render(revision().number, recipe_);
 }
 
@@ -162,6 +164,7 @@ EditOutcome EditSession::adopt(EditRecipe recipe, const Status& stored) {
   if (!stored) return stored.error();
   recipe_ = std::move(recipe);
   avatars_.merge(avatars_of(recipe_));  // Of recipes in the journal.
+  listener_.on_revision(*this);
   worker_.render(revision().number, recipe_);
   const Status written = recordings::write_file(recipe_file_, recipe_text());
   if (!written) return written.error();

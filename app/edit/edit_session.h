@@ -101,7 +101,8 @@ class EditSession {
   std::set<std::string> avatars_;
   std::vector<EditSourceFacts> facts_;
   std::vector<std::string> remarks_;
-  bool can_write_;     ///< There is a folder for exports.
+  bool can_write_;  ///< There is a folder for exports.
+  EditListener& listener_;
   EditWorker worker_;  ///< Last, because its thread ends first.
 };
 

@@ -97,13 +97,19 @@ class SpliceSearch {
   const FindSpliceOptions& options_;
 };
 
+// Costs this near are equal: the root of a rounding error must not decide. [m]
+constexpr double kSameCost_m = 1e-5;
+
 void sort_by_cost(std::vector<SpliceCandidate>& candidates) {
-  std::sort(candidates.begin(),
-            candidates.end(),
-            [](const SpliceCandidate& x, const SpliceCandidate& y) {
-              return std::tuple(x.match.distance_m, -x.leave, x.enter) <
-                     std::tuple(y.match.distance_m, -y.leave, y.enter);
-            });
+  std::sort(
+      candidates.begin(),
+      candidates.end(),
+      [](const SpliceCandidate& x, const SpliceCandidate& y) {
+        return std::tuple(
+                   std::llround(x.match.distance_m / kSameCost_m), -x.leave, x.enter) <
+               std::tuple(
+                   std::llround(y.match.distance_m / kSameCost_m), -y.leave, y.enter);
+      });
 }
 
 bool is_near(const SpliceCandidate& x, const SpliceCandidate& y, double frames) {

@@ -10,11 +10,12 @@
 #include <vector>
 
 #include "edit/find/find_splice.h"
-#include "edit/splice/choose_splice.h"
-#include "edit/splice/splice_carry.h"
-#include "edit/splice/splice_overlap.h"
-#include "edit/splice/splice_poses.h"
-#include "edit/splice/splice_source.h"
+#include "edit/ops/bridge_stances.h"
+#include "edit/ops/choose_splice.h"
+#include "edit/ops/splice_carry.h"
+#include "edit/ops/splice_overlap.h"
+#include "edit/ops/splice_poses.h"
+#include "edit/ops/splice_source.h"
 #include "edit/state/check_op_keys.h"
 #include "edit/state/move_state.h"
 #include "edit/state/plant_near.h"
@@ -212,7 +213,8 @@ void smooth_join(const SpliceParts& parts,
         united(changed,
                displace_join(parts.first, parts.second, parts.frames, blend_frames, out));
   }
-  const PlantNearReport planted = plant_feet_near(out, changed);
+  const FootWays feet = bridge_stances(parts.first, parts.second, parts.frames, out);
+  const PlantNearReport planted = plant_feet_near(out, changed, feet);
   report_planted(planted, report);
   const int sink = static_cast<int>(std::ceil(kSpliceSink_s * out.motion.rate.hz));
   const FrameRange moved =

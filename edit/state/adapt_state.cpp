@@ -13,6 +13,7 @@
 
 #include "edit/state/plant_feet.h"
 #include "edit/state/resample_state.h"
+#include "edit/state/support_tracks.h"
 #include <glm/geometric.hpp>
 
 #include "core/base/format_text.h"
@@ -22,6 +23,7 @@
 #include "retarget/adapt/plan_supports.h"
 #include "retarget/character/make_character.h"
 #include "retarget/constraints/activation.h"
+#include "retarget/constraints/check_constraints.h"
 #include "retarget/constraints/resolve_segment.h"
 #include "retarget/feet/adapt_to_ground.h"
 
@@ -132,7 +134,10 @@ void report_constraint(const retarget::KeptConstraint& kept,
           .measured(error, std::nullopt, unit));
 }
 
+/// Reports the constraints, and of the supports the first `own_supports`; of the planned
+/// ones those that are not met.
 void report_adapted(const retarget::AdaptedMotion& adapted,
+                    std::size_t own_supports,
                     double rate_hz,
                     OpReport& report) {
   int unmet = 0;
@@ -143,16 +148,19 @@ void report_adapted(const retarget::AdaptedMotion& adapted,
       worst_m = std::max(worst_m, kept.worst_error_m);
     }
   }
-  report.figures.emplace_back("constraints",
-                              static_cast<double>(adapted.constraints.size()));
+  report.figures.emplace_back(
+      "constraints", static_cast<double>(adapted.constraints.size() + own_supports));
   report.figures.emplace_back("unmet", unmet);
   report.figures.emplace_back("worst_constraint_mm", kToMm * worst_m);
   report.figures.emplace_back("added_acceleration_m_per_s2", adapted.added.m_per_s2);
   for (const retarget::KeptConstraint& kept : adapted.constraints) {
     report_constraint(kept, rate_hz, report);
   }
-  for (const retarget::KeptConstraint& kept : adapted.supports) {
-    if (kept.met_frames < kept.active_frames) report_constraint(kept, rate_hz, report);
+  for (std::size_t i = 0; i < adapted.supports.size(); ++i) {
+    const retarget::KeptConstraint& kept = adapted.supports[i];
+    if (i < own_supports || kept.met_frames < kept.active_frames) {
+      report_constraint(kept, rate_hz, report);
+    }
   }
 }
 
@@ -166,15 +174,22 @@ Status adapt_state(EditState& state, OpReport& report) {
   if (state.constraints.constraints.empty()) return Done{};
   const auto character = character_of(state);
   if (!character) return character.error();
-  const auto supports = planned_supports(state);
+  if (const Status ok = retarget::check_constraints(state.constraints, *character); !ok) {
+    return ok.error();
+  }
+  SplitConstraints split = split_supports(state, *character);
+  const std::size_t own_supports = split.supports.size();
+  for (retarget::SupportTrack& track : planned_supports(state)) {
+    split.supports.push_back(std::move(track));
+  }
   const Motion before = state.motion;
   Motion from_zero = state.motion;
   from_zero.first_frame = 0;  // Times of constraints are since the first pose.
   auto adapted =
-      retarget::adapt_motion(from_zero, *character, state.constraints, supports);
+      retarget::adapt_motion(from_zero, *character, split.others, split.supports);
   if (!adapted) return adapted.error();
   const FrameRange changed = take_adapted(std::move(adapted->motion.poses), state);
-  report_adapted(*adapted, state.motion.rate.hz, report);
+  report_adapted(*adapted, own_supports, state.motion.rate.hz, report);
   report.figures.emplace_back("slide_mm", measure_slide(state).worst_drift_mm);
   report.figures.emplace_back(
       "largest_mm", kToMm * mark_displaced(state, before, changed, report.index));

@@ -18,11 +18,9 @@
 #include <gtest/gtest.h>
 
 #include "app/edit/edit_messages.h"
-#include "core/human/average_proportions.h"
-#include "core/humanoid.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/edit/edit_recipe_file.h"
-#include "recordings/motion/bvh.h"
+#include "tests/app/edit/arm_clip.h"
 #include "tests/support/program/scratch_folder.h"
 
 namespace marey::app {
@@ -34,6 +32,10 @@ using testing::ScratchFolder;
 /// Keeps what a session reports.
 class Reports : public EditListener {
  public:
+  void on_revision(const EditSession& session) override {
+    const std::lock_guard lock(mutex);
+    EXPECT_FALSE(session.recipe_text().empty());
+  }
   void on_progress(const EditProgress& progress) override {
     const std::lock_guard lock(mutex);
     last_progress = progress;
@@ -80,23 +82,10 @@ class Reports : public EditListener {
   std::map<std::string, std::string> failed;
 };
 
-/// A person who stands for 2 s, and raises the arms.
-void write_clip(const fs::path& file) {
-  Motion motion{make_humanoid(average_proportions(1.75)), {60.0}, 0, {}};
-  const auto arm = index(*motion.skeleton.find(HumanBone::kLeftUpperArm));
-  for (int i = 0; i < 121; ++i) {
-    Pose pose = rest_pose(motion.skeleton);
-    pose.parent_from_joint[arm] = glm::angleAxis(0.005 * i, glm::dvec3(0.0, 0.0, 1.0));
-    motion.poses.push_back(std::move(pose));
-  }
-  const auto written = recordings::write_bvh(file, motion);
-  ASSERT_TRUE(written) << written.error().message();
-}
-
 /// A folder with a clip and a session on it.
 class OpenedEdit {
  public:
-  OpenedEdit() { write_clip(clip()); }
+  OpenedEdit() { testing::write_arm_clip(clip()); }
 
   [[nodiscard]] fs::path clip() const { return folder / "stand.bvh"; }
   [[nodiscard]] fs::path recipe() const { return folder / "stand.edit.toml"; }

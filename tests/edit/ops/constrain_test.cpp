@@ -239,6 +239,18 @@ TEST(ConstrainOp, EdgesOfContactsMovedByHandAreThoseOfTheSupports) {
   EXPECT_TRUE(found);
 }
 
+// Supports that fade add a share of their displacement to the moving foot; they do not
+// pull it towards the footprint, from which it is 30 cm away half a fade before.
+TEST(ConstrainOp, SupportsFoundInAWalkHardlyMoveIt) {
+  const EditState state = state_of(testing::synthetic_walk(300, kRate_hz).motion);
+  OpScene<ConstrainOp> scene = detection(DetectConstraints::kSupports);
+  std::get<ConstrainOp>(scene.op.parameters).adapt = true;
+  (void)done(scene, state);
+  EXPECT_EQ(scene.figure("unmet"), 0.0);
+  EXPECT_LT(scene.figure("largest_mm"), 15.0);
+  EXPECT_LT(scene.figure("slide_mm"), 0.1);
+}
+
 /// A hand goes down on the top of a table, rests there from frame 90 to 150, and leaves.
 /// The gap between the hand's surface and the table is 1 cm.
 struct TableScene {
