@@ -70,12 +70,23 @@ struct ChosenCycle {
   LoopCandidate loop;
 };
 
+/// A foot that stands on one footprint during the whole cycle.
+bool has_fixed_foot(const EditState& state, const LoopCandidate& loop) {
+  for (const auto& foot : state.contacts.feet) {
+    for (const FrameRange& run : foot.stance) {
+      if (run.first <= loop.first && run.last >= loop.last) return true;
+    }
+  }
+  return false;
+}
+
 ChosenCycle chosen(const EditState& state, const CyclifyOp& op, LoopCandidate loop) {
   ChosenCycle out;
   out.spec.first = loop.first;
   out.spec.period_frames = std::min(
       loop.period_frames, static_cast<double>(state.frame_count() - 1 - loop.first));
-  out.spec.travel = loop.travel;
+  // Footprints of the next cycle are those of this one moved by the travel.
+  if (!has_fixed_foot(state, loop)) out.spec.travel = loop.travel;
   out.spec.drift = op.drift;
   out.loop = std::move(loop);
   return out;
