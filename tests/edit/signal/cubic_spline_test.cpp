@@ -13,7 +13,7 @@
 namespace marey::edit {
 namespace {
 
-using testing::Dice;
+using marey::testing::Dice;
 
 struct SplineKnots {
   std::vector<double> x;
