@@ -182,7 +182,7 @@ void report_planted(const PlantNearReport& planted, OpReport& report) {
                    "choose frames that fit better with at and enter_at"));
 }
 
-// Marks what was invented round the join, and touches what follows.
+// Marks the invented frames at the join, and touches the frames after it.
 void mark_join(const FrameRange& changed,
                const FrameRange& moved,
                const Motion& plain,

@@ -13,10 +13,10 @@ namespace marey::edit {
 /// Joins another source to the end of the motion.
 ///
 /// Frame `at` of the motion and frame `enter_at` of the source become one instant of the
-/// result. A frame that is not given is the best one (edit/find/find_splice.h): of the
-/// motion within the span, or its second half without one; of the source within its
-/// first half; both within 4 s of the end or the start. A source with another rate or
-/// another body is fitted first (edit/splice/splice_source.h).
+/// result. A frame that is not given is the best one (edit/find/find_splice.h). It is
+/// searched in the motion within the span, or its second half without one; and in the
+/// first half of the source, within 4 s of the end or the start. A source with another
+/// rate or another body is fitted first (edit/splice/splice_source.h).
 ///
 /// With `align`, the source is turned and moved on the floor so that the postures at the
 /// join fit best, then shifted so that the feet that bear across the join keep their

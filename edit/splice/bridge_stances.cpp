@@ -53,7 +53,7 @@ double turn_between(const glm::dquat& a, const glm::dquat& b) {
 // One foot of both motions in the overlap.
 struct OverlapFeet {
   std::vector<FootPlace> first;   // One per frame of the first motion.
-  std::vector<FootPlace> second;  // Of the second motion.
+  std::vector<FootPlace> second;  // Place in the second motion.
   const retarget::FootMap& shape;
 };
 
@@ -107,7 +107,7 @@ FootPlace mixed_place(const FootPlace& a, const FootPlace& b, double share) {
           glm::normalize(glm::slerp(a.toes, b.toes, share))};
 }
 
-// Where the foot stands in a stance across the join.
+// Place of the foot in a stance across the join.
 void bridge_stance(const OverlapFeet& feet,
                    const BridgeMoves& moves,
                    const FrameRange& stance,

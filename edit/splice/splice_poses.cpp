@@ -103,7 +103,7 @@ struct JoinPoses {
   const Pose& before_a;
   const Pose& b;
   const Pose& after_b;
-  double share_a = 0.5;  // Of the gap, taken by the first side.
+  double share_a = 0.5;  // Part of the gap that the first side takes.
 };
 
 SideDecay decay_of(const JoinPoses& join, bool is_first, int length) {

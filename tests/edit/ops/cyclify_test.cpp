@@ -173,7 +173,7 @@ TEST(Cyclify, PlantsTheFeetOfTenCycles) {
 }
 
 TEST(Cyclify, JoinsAMotionThatGrows) {
-  // As cut, places jump, by more than 1 m/s at any rate. Of a smooth loop the estimate of
+  // As cut, places jump, by more than 1 m/s at any rate. In a smooth loop the estimate of
   // the jump is the error of the cubics, which falls with the rate.
   std::vector<double> jumps;
   for (const double hz : {120.0, 480.0}) {
@@ -206,7 +206,7 @@ TEST(Cyclify, AcceleratesAtTheSeamAsInside) {
       ++above;
     }
   }
-  // Of two frames chosen at random, one is above the 95th percentile in 10 % of cases.
+  // One of two frames chosen at random is above the 95th percentile in 10 % of cases.
   EXPECT_LE(above, kSeeds / 5);
 }
 
