@@ -40,6 +40,7 @@
 
 #include "benchmarks/parts/captured_clips.h"
 #include "benchmarks/parts/result_table.h"
+#include "core/base/format_text.h"
 #include "retarget/contacts/frame_marks.h"
 #include "retarget/contacts/measure_contacts.h"
 
@@ -87,19 +88,28 @@ Places joint_places(const Motion& motion) {
   return out;
 }
 
-double peak_acceleration(const Motion& motion, int first, int last) {
+/// A largest value, and where it is.
+struct Peak {
+  double value = 0.0;
+  std::string joint;
+  int frame = 0;
+};
+
+/// [m/s^2]
+Peak peak_acceleration(const Motion& motion, int first, int last) {
   const Places places = joint_places(motion);
-  double peak = 0.0;
+  Peak peak;
   const int end = static_cast<int>(places.size()) - 2;
   for (int t = std::max(first, 1); t <= std::min(last, end); ++t) {
     const auto k = static_cast<std::size_t>(t);
     for (std::size_t j = 0; j < places[k].size(); ++j) {
       if (!motion.skeleton.joints[j].bone) continue;
       const glm::dvec3 change = places[k + 1][j] - 2.0 * places[k][j] + places[k - 1][j];
-      peak = std::max(peak, glm::length(change));
+      const double size = glm::length(change) * motion.rate.hz * motion.rate.hz;
+      if (size > peak.value) peak = {size, motion.skeleton.joints[j].name, t};
     }
   }
-  return peak * motion.rate.hz * motion.rate.hz;
+  return peak;
 }
 
 /// Frames in which each contact point bears: per point of retarget::kContactBones.
@@ -127,7 +137,7 @@ ClipLabels labels_of(const EditState& state) {
 struct Slide {
   double way_m = 0.0;
   int steps = 0;
-  double worst_m = 0.0;
+  Peak worst;  ///< [m] per frame
   [[nodiscard]] double cm_per_s(double hz) const {
     return steps == 0 ? 0.0 : 100.0 * way_m / steps * hz;
   }
@@ -152,7 +162,9 @@ Slide slide_of(const Joined& joined,
       const glm::dvec3 step = places[t][index(*joint)] - places[t - 1][index(*joint)];
       const double way_m = std::hypot(step.x, step.z);
       out.way_m += way_m;
-      out.worst_m = std::max(out.worst_m, way_m);
+      if (way_m > out.worst.value) {
+        out.worst = {way_m, std::string(name(retarget::kContactBones[point])), frame};
+      }
       ++out.steps;
     }
   }
@@ -256,6 +268,10 @@ struct Measured {
   double slow_slide = 0.0;    ///< [cm/s], second label
   double clip_slide = 0.0;    ///< [cm/s], second label, the clips' own
   double acceleration = 0.0;  ///< Over the clips'.
+  Peak fastest;
+  Peak hardest;
+  int join = 0;
+  double hz = 0.0;
   std::string cause;
 };
 
@@ -299,21 +315,29 @@ Measured measure(const Joined& joined, const PairOfClips& pair) {
   const Slide slide =
       slide_of(joined, pair.a.map, {&pair.labels[0].contacts, &pair.labels[1].contacts});
   out.slide = slide.cm_per_s(hz);
-  out.worst = 100.0 * slide.worst_m * hz;
+  out.worst = 100.0 * slide.worst.value * hz;
+  out.fastest = slide.worst;
+  out.join = joined.join;
+  out.hz = hz;
   out.slow_slide =
       slide_of(joined, pair.a.map, {&pair.labels[0].slow, &pair.labels[1].slow})
           .cm_per_s(hz);
   out.clip_slide = own_slow_slide(joined, pair);
-  out.acceleration =
-      peak_acceleration(joined.motion, joined.join - near, joined.join + near) /
-      pair.peak;
+  out.hardest = peak_acceleration(joined.motion, joined.join - near, joined.join + near);
+  out.acceleration = out.hardest.value / pair.peak;
   return out;
 }
 
 std::string cause_of(const Measured& m, const edit::OpReport& report) {
   std::string out;
-  if (m.slide > kSlideBar_cm_per_s) out += "slide ";
-  if (m.acceleration > kAccelerationBar) out += "acceleration ";
+  const auto place = [&](const char* what, const Peak& peak) {
+    return format_text("%s of %s %.2f s from the join; ",
+                       what,
+                       peak.joint.c_str(),
+                       (peak.frame - m.join) / m.hz);
+  };
+  if (m.slide > kSlideBar_cm_per_s) out += place("slide", m.fastest);
+  if (m.acceleration > kAccelerationBar) out += place("acceleration", m.hardest);
   if (out.empty()) return out;
   for (const Finding& finding : report.findings) {
     if (finding.id != "candidates") out += "[" + finding.id + "] ";
@@ -447,8 +471,9 @@ int run(const std::filesystem::path& mocap, bool has_pairs) {
       if (!second) continue;
       PairOfClips pair{a.name + " - " + b.name, a.state, *second, {}, 0.0};
       pair.labels = {labels_of(pair.a), labels_of(pair.b)};
-      pair.peak = std::max(peak_acceleration(pair.a.motion, 0, pair.a.frame_count()),
-                           peak_acceleration(pair.b.motion, 0, pair.b.frame_count()));
+      pair.peak =
+          std::max(peak_acceleration(pair.a.motion, 0, pair.a.frame_count()).value,
+                   peak_acceleration(pair.b.motion, 0, pair.b.frame_count()).value);
       measure_pair(pair, random, results);
     }
   }
