@@ -24,8 +24,7 @@ struct JoinFrames {
 /// one; so do constraints of the same id and goal. Another constraint whose id is taken
 /// gets a new one. Constraints that are active across the join fade over the overlap.
 /// Curves are mixed by the weights; a motion without a curve counts as 0. Uncertainty is
-/// dropped, with a finding, if one of the motions has none. Contacts shorter than 0.06 s
-/// that the join cuts are dropped, and gaps shorter than 0.05 s closed.
+/// dropped, with a finding, if one of the motions has none. Contacts: join_contacts().
 /// Precondition: same skeleton and rate; `start` <= `join`; the first motion has at least
 /// the frames up to `join`.
 [[nodiscard]] EditState join_states(const EditState& first,
