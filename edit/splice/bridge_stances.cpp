@@ -134,16 +134,23 @@ void place_foot(const OverlapFeet& feet,
                 const std::vector<FrameRange>& stances,
                 const JoinFrames& frames,
                 std::vector<FootPlace>& way) {
+  const int after = frames.join + 1;
+  const bool both_stand =
+      stands_at(*own[0], frames.join) && stands_at(*own[1], after - frames.start);
   for (const FrameRange& stance : stances) {
-    if (stance.first <= frames.join && stance.last > frames.join) {
+    const bool crosses = stance.first <= frames.join && stance.last >= after;
+    if (crosses && both_stand) {
       const auto entries = common_entries(*own[0], *own[1], frames);
       bridge_stance(feet, halves_of_gap(feet, entries, frames), stance, frames, way);
       continue;
     }
+    // A stance of one motion may reach a little beyond the join (join_contacts()).
+    const bool is_first =
+        crosses ? stands_at(*own[0], frames.join) : stance.last <= frames.join;
     for (int t = stance.first; t <= stance.last; ++t) {
       way[static_cast<std::size_t>(t)] =
-          t <= frames.join ? feet.first[static_cast<std::size_t>(t)]
-                           : feet.second[static_cast<std::size_t>(t - frames.start)];
+          is_first ? feet.first[static_cast<std::size_t>(t)]
+                   : feet.second[static_cast<std::size_t>(t - frames.start)];
     }
   }
 }

@@ -15,7 +15,9 @@
 #include "core/base/assert.h"
 #include "core/transform.h"
 #include "retarget/base/smooth_step.h"
+#include "retarget/contacts/frame_marks.h"
 #include "retarget/feet/adapt_to_ground.h"
+#include "retarget/feet/footprint.h"
 #include "retarget/feet/plan_foot_path.h"
 
 namespace marey::edit {
@@ -30,7 +32,7 @@ constexpr double kMinFade_s = 0.15;
 // Fade of a foot that does not stand again. [s]
 constexpr double kFreeFade_s = 0.4;
 // Time over which the change of a displacement is fitted, and over which it fades. [s]
-constexpr double kRateFit_s = 0.05;
+constexpr double kRateFit_s = 0.025;
 constexpr double kRateFade_s = 0.15;
 
 bool overlaps(const FrameRange& a, const FrameRange& b) {
@@ -158,6 +160,41 @@ std::vector<std::optional<FootPlace>> place_stances(
   return way.out;
 }
 
+// The planar move that brings one footprint onto another one.
+RigidTransform print_move(const retarget::Footprint& from,
+                          const retarget::Footprint& to) {
+  const glm::dquat turn = glm::normalize(to.heading * glm::conjugate(from.heading));
+  return {turn, to.ankle_in_world - turn * from.ankle_in_world};
+}
+
+// Keeps the footprint of each stance within the zone as it is in the first frame there;
+// the rest of the stance moves along.
+void hold_prints(const std::vector<FootPlace>& level,
+                 const FootContacts& contacts,
+                 const FrameRange& zone,
+                 const retarget::FootMap& shape,
+                 FrameRate rate,
+                 std::vector<FootPlace>& planned) {
+  const auto heel = retarget::frame_marks(contacts.heel, level.size());
+  const auto ball = retarget::frame_marks(contacts.ball, level.size());
+  for (const FrameRange& run : contacts.stance) {
+    if (!overlaps(run, zone)) continue;
+    const auto prints = retarget::footprints({level, heel, ball}, run, shape, rate);
+    const auto print = [&](int frame) {
+      return prints[static_cast<std::size_t>(frame - run.first)];
+    };
+    const int held = std::max(run.first, zone.first);
+    for (int frame = held + 1; frame <= run.last; ++frame) {
+      const RigidTransform move =
+          print_move(print(std::min(frame, zone.last)), print(held));
+      FootPlace& place = planned[static_cast<std::size_t>(frame)];
+      place.ankle_in_world = move * place.ankle_in_world;
+      place.foot = move.rotation * place.foot;
+      place.toes = move.rotation * place.toes;
+    }
+  }
+}
+
 // Returns one foot on its footprints in the stances near the zone.
 std::vector<std::optional<FootPlace>> planted_foot(const EditState& state,
                                                    int side,
@@ -184,6 +221,7 @@ std::vector<std::optional<FootPlace>> planted_foot(const EditState& state,
   for (FootPlace& place : level) place.ankle_in_world.y += rise_m;
   auto planned = retarget::plan_foot_path(
       level, contacts, state.map.feet[foot], state.map.leg_length_m, state.motion.rate);
+  hold_prints(level, contacts, zone, state.map.feet[foot], state.motion.rate, planned);
   for (FootPlace& place : planned) place.ankle_in_world.y -= rise_m;
   return place_stances(stances, *chosen, hz, {before, planned, {}});
 }

@@ -24,7 +24,8 @@ using FootWays = std::array<std::vector<retarget::FootPlace>, 2>;
 
 /// Makes the feet stand still as plant_feet() does, but only in the stances that touch
 /// the frames of `zone`, and in neighbours that follow within 0.15 s. The footprints are
-/// those of `feet` in these stances; its other frames have no effect. The displacement of
+/// those of `feet` in these stances; its other frames have no effect. Within the zone a
+/// footprint does not turn, even if the foot does. The displacement of
 /// a foot at the edges of its stances fades out over the swings before and after (0.4 s
 /// if the foot does not stand there), with continuous speed and acceleration. Linear in
 /// frames.
