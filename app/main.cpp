@@ -15,6 +15,7 @@
 #include "app/adapt/adapt_commands.h"
 #include "app/convert/convert_commands.h"
 #include "app/convert/mannequin_commands.h"
+#include "app/edit/edit_commands.h"
 #include "app/inspect/doctor_commands.h"
 #include "app/inspect/inspect_commands.h"
 #include "app/live/listen_commands.h"
@@ -50,6 +51,7 @@ struct Arguments {
   ListenArguments listen;
   RetargetArguments retarget;
   AdaptArguments adapt;
+  EditArguments edit;
   ConvertArguments convert;
   MannequinArguments mannequin;
   PrintArguments print;
@@ -106,6 +108,7 @@ int run(int argc, char** argv) {
   add_listen_command(app, args.listen, chosen);
   add_retarget_command(app, args.retarget, chosen);
   add_adapt_command(app, args.adapt, chosen);
+  add_edit_command(app, args.edit, chosen);
   add_convert_command(app, args.convert, chosen);
   add_mannequin_command(app, args.mannequin, chosen);
   add_print_commands(app, args.print, chosen);

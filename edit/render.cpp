@@ -96,8 +96,14 @@ Result<Rendered> render(const EditRecipe& recipe,
       std::min(options.until.value_or(recipe.ops.size()), recipe.ops.size());
   RenderStart start = start_of(recipe, inputs, options, count);
   Rendered out = std::move(start.result);
+  if (progress && start.done > 0) {
+    progress(static_cast<int>(start.done), static_cast<int>(count));
+  }
   for (std::size_t i = start.done; i < count; ++i) {
     const EditOp& op = recipe.ops[i];
+    if (options.is_cancelled && options.is_cancelled()) {
+      return bad_input(options.recipe_file, "the rendering was stopped", "");
+    }
     if (!op.off) {
       const OpContext context{op, static_cast<int>(i), inputs};
       if (const Status ok = apply_to_all(context, out); !ok) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <list>
 #include <optional>
 #include <span>
@@ -50,19 +51,24 @@ class EditCache {
 
 struct RenderOptions {
   /// Number of operations to apply; nullopt: all.
-  std::optional<std::size_t> until;
+  std::optional<std::size_t> until{};
   /// For each operation a key of itself and of all before it, sources and avatars
   /// included (the SHA-256 of their texts and files); empty: nothing is cached.
-  std::span<const std::string> keys;
+  std::span<const std::string> keys{};
   EditCache* cache = nullptr;
   std::string recipe_file;  ///< For the place of errors.
+  /// Called before each operation; true stops the rendering with an error. May be empty.
+  std::function<bool()> is_cancelled{};
 };
 
 /// Applies the operations of a recipe, in their order, to its first source. Operations
 /// that are off are absent. Pure: same recipe and inputs, same result, to the bit.
 /// With a cache, only the operations after the last known result are applied.
 ///
-/// Errors (bad input), with the recipe's file and the operation's line: apply_op()'s.
+/// `progress` receives the number of operations that are done, known results included.
+///
+/// Errors (bad input), with the recipe's file and the operation's line: apply_op()'s;
+/// RenderOptions::is_cancelled returned true.
 /// Precondition: `inputs` has all sources and avatars that the recipe names; as many keys
 /// as operations, or none.
 [[nodiscard]] Result<Rendered> render(const EditRecipe& recipe,

@@ -12,9 +12,9 @@ set(reconstruct_LAYERS
 set(retarget_LAYERS
   base constraints bones body character contacts feet balance hands motion
   adapt/plan adapt/kernel adapt)
-set(edit_LAYERS signal state find ops .)
-set(recordings_LAYERS base body takes motion gltf markers print session)
+set(edit_LAYERS signal state find filter splice ops .)
+set(recordings_LAYERS base body edit takes motion gltf markers print session)
 set(live_LAYERS udp vmc page web)
 set(app_LAYERS
   shell motion pages adapt convert print plan record check markers process retarget
-  live_chain view live inspect .)
+  live_chain view edit live inspect .)

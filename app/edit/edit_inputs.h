@@ -20,10 +20,11 @@ namespace marey::app {
 struct EditFiles {
   edit::EditInputs inputs;
   std::map<std::string, OpenedAvatar> avatars;  ///< By RetargetOp::avatar.
-  std::vector<std::string> sha256;  ///< Of each source's file, in the recipe's order.
+  std::vector<std::string>
+      sha256;  ///< SHA-256 of each source's file, in the recipe's order.
   std::map<std::string, std::string> avatar_sha256;
-  BodyLook look;  ///< Of the first source's body: with its mesh, if it has one.
-  std::vector<std::string> remarks;  ///< What the readers assumed, with the file.
+  BodyLook look;  ///< Look of the first source's body: with its mesh, if it has one.
+  std::vector<std::string> remarks;  ///< Assumptions of the readers, with the file.
 };
 
 struct ReadEditOptions {

@@ -9,6 +9,7 @@
 
 #include "edit/render.h"
 
+#include "app/edit/edit_figures.h"
 #include "app/edit/edit_inputs.h"
 #include "app/motion/motion_files.h"
 #include "core/base/result.h"
@@ -17,22 +18,9 @@
 
 namespace marey::app {
 
-/// What an edit did to one motion, measured on the result by forward kinematics.
-struct EditFigures {
-  std::string name;
-  int frames = 0;
-  double duration_s = 0.0;
-  double slide_mm = 0.0;            ///< Largest drift of a foot within one contact.
-  double slide_cm_per_s = 0.0;      ///< Mean over all contacts.
-  double displaced_mm = 0.0;        ///< Largest displacement of an operation.
-  double acceleration_ratio = 0.0;  ///< Peak of the joints, over the source's peak.
-  double constraint_mm = 0.0;       ///< Largest error of a fully active constraint.
-  int inferred_frames = 0;          ///< Frames that operations invented.
-};
-
 struct EditOutput {
   std::filesystem::path out;          ///< Folder.
-  std::vector<MotionFormat> formats;  ///< Empty: npz, bvh, and what the body allows.
+  std::vector<MotionFormat> formats;  ///< Empty: all formats that the body allows.
 };
 
 /// Returns the names of the results: that of the recipe, with .1, .2 ... if there are

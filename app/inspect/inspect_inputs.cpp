@@ -15,6 +15,7 @@
 #include "recordings/body/character_file.h"
 #include "recordings/body/constraints_file.h"
 #include "recordings/body/floor_file.h"
+#include "recordings/edit/edit_recipe_file.h"
 #include "recordings/markers/marker_map.h"
 #include "recordings/motion/asf.h"
 #include "recordings/motion/mot.h"
@@ -104,6 +105,21 @@ Result<Json> inspect_floor(const fs::path& file) {
                      {"moves", !part.path.empty()}});
   }
   return Json{{"kind", "floor"}, {"base_m", floor->base_height_m}, {"parts", parts}};
+}
+
+Result<Json> inspect_recipe(const fs::path& file) {
+  const auto recipe = recordings::read_edit_recipe(file);
+  if (!recipe) return recipe.error();
+  Json sources = Json::array();
+  for (const EditSource& source : recipe->sources) sources.push_back(source.path);
+  Json ops = Json::array();
+  for (const EditOp& op : recipe->ops) {
+    ops.push_back(std::string(name(op.parameters)) + "@" + std::to_string(op.version));
+  }
+  return Json{{"kind", "edit recipe"},
+              {"name", recipe->name},
+              {"sources", sources},
+              {"operations", ops}};
 }
 
 Result<Json> inspect_marker_map(const fs::path& file) {
@@ -272,6 +288,8 @@ Result<Json> inspect_kind(const fs::path& file, FileKind kind) {
       return inspect_floor(file);
     case FileKind::kMarkerMap:
       return inspect_marker_map(file);
+    case FileKind::kEditRecipe:
+      return inspect_recipe(file);
     case FileKind::kConstraints:
       return inspect_constraints(file);
     case FileKind::kJoints:

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "app/motion/foot_contacts.h"
+#include "app/view/constraint_kind.h"
 #include "recordings/body/constraints_file.h"
 #include "retarget/adapt/adapter.h"
 #include "retarget/character/make_character.h"
@@ -15,41 +16,6 @@
 
 namespace marey::app {
 namespace {
-
-/// Returns the goal if a page may move its position, else null.
-const DistanceToPoint* place_of(const Constraint& constraint) {
-  return std::get_if<DistanceToPoint>(&constraint.goal);
-}
-
-live::PageConstraintKind kind_of(const Constraint& constraint) {
-  const Goal& goal = constraint.goal;
-  if (const auto* place = place_of(constraint)) {
-    return place->distance_m > 0.0 ? live::PageConstraintKind::kDistance
-                                   : live::PageConstraintKind::kPosition;
-  }
-  if (std::holds_alternative<Support>(goal)) return live::PageConstraintKind::kSupport;
-  if (std::holds_alternative<SegmentOrientation>(goal)) {
-    return live::PageConstraintKind::kOrientation;
-  }
-  const bool is_box = std::holds_alternative<AllowedSpace>(goal) ||
-                      std::holds_alternative<ForbiddenSpace>(goal);
-  return is_box ? live::PageConstraintKind::kBox : live::PageConstraintKind::kDistance;
-}
-
-/// Returns the target of the goal, if it is a single point.
-std::optional<glm::dvec3> wanted_in_world(const Goal& goal) {
-  if (const auto* place = std::get_if<DistanceToPoint>(&goal)) return place->p_in_world;
-  if (const auto* support = std::get_if<Support>(&goal)) {
-    return support->footprint_in_world;
-  }
-  if (const auto* box = std::get_if<AllowedSpace>(&goal)) {
-    return 0.5 * (box->min_in_world + box->max_in_world);
-  }
-  if (const auto* box = std::get_if<ForbiddenSpace>(&goal)) {
-    return 0.5 * (box->min_in_world + box->max_in_world);
-  }
-  return std::nullopt;
-}
 
 bool has_supports(const ConstraintSet& set) {
   return std::ranges::any_of(set.constraints, [](const Constraint& constraint) {
@@ -126,9 +92,9 @@ std::vector<live::PageConstraint> ViewHandles::constraints() const {
     live::PageConstraint& shown = out.emplace_back();
     shown.id = constraint.id;
     shown.skeleton = figure_;
-    shown.kind = kind_of(constraint);
-    shown.draggable = place_of(constraint) != nullptr;
-    const auto wanted = wanted_in_world(constraint.goal);
+    shown.kind = page_kind(constraint);
+    shown.draggable = is_draggable_place(constraint);
+    const auto wanted = target_in_world(constraint.goal);
     shown.p_in_world = wanted.value_or(glm::dvec3(0.0));
     if (!wanted)
       shown.joint = retarget::carried_point(character_, constraint.point).joint;
@@ -146,7 +112,7 @@ std::vector<live::PageConstraint> ViewHandles::constraints() const {
 
 bool ViewHandles::is_draggable(const std::string& id) const {
   const Constraint* of_file = of_file_.find(id);
-  if (of_file != nullptr) return place_of(*of_file) != nullptr;
+  if (of_file != nullptr) return is_draggable_place(*of_file);
   return std::ranges::find(handles_, id, &BodyHandle::id) != handles_.end();
 }
 

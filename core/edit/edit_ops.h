@@ -28,19 +28,19 @@ struct CutOp {};
 
 /// Keeps several spans: each becomes a motion of its own.
 struct KeepOp {
-  std::vector<EditSpan> spans;
+  std::vector<EditSpan> spans{};
 };
 
 /// Divides the motion at these instants: each part becomes a motion of its own.
 struct SplitOp {
-  std::vector<Moment> at;
+  std::vector<Moment> at{};
 };
 
 /// Joins another source to the end of the motion.
 struct SpliceOp {
-  std::string source;              ///< Id of the source that follows.
-  std::optional<Moment> at;        ///< Leaves this motion here; nullopt: the best frame.
-  std::optional<Moment> enter_at;  ///< Enters the other here; nullopt: the best frame.
+  std::string source{};        ///< Id of the source that follows.
+  std::optional<Moment> at{};  ///< Leaves this motion here; nullopt: the best frame.
+  std::optional<Moment> enter_at{};  ///< Enters the other here; nullopt: the best frame.
   /// Time that both overlap. 0: none; both are displaced towards each other. [s]
   double overlap_s = 0.3;
   /// The other source is turned and moved about the vertical so that it fits.
@@ -53,8 +53,8 @@ enum class CutoffRule { kGiven, kYu, kWinter };
 /// Removes noise.
 struct FilterOp {
   FilterMethod method = FilterMethod::kGcvSpline;
-  int order = 2;                            ///< Of the spline: 2 is cubic, 3 is quintic.
-  CutoffRule cutoff = CutoffRule::kWinter;  ///< Of the Butterworth filter.
+  int order = 2;  ///< Order of the spline: 2 is cubic, 3 is quintic.
+  CutoffRule cutoff = CutoffRule::kWinter;  ///< For kButterworth.
   double cutoff_hz = 0.0;                   ///< For kGiven.
   bool keep_contacts = true;                ///< Standing feet stay where they stood.
 };
@@ -67,16 +67,18 @@ struct LevelOp {
 
 /// Moves and turns the whole motion about the vertical.
 struct PlaceOp {
-  std::optional<glm::dvec2> position_xz_m;  ///< Of the root at `at`. World X and Z.
+  std::optional<glm::dvec2>
+      position_xz_m{};  ///< Place of the root at `at`. World X and Z.
   /// Direction of travel over the span, or of the pelvis if the motion stays in place: 0
   /// is +Z, a quarter turn is +X.
-  std::optional<double> heading_rad;
+  std::optional<double> heading_rad{};
   Moment at = AtFrame{};
 };
 
 /// Bends the path of the root, with its footprints.
 struct PathOp {
-  std::vector<glm::dvec2> points_xz_m;  ///< The new path; empty: `turn_rad` and `length`.
+  std::vector<glm::dvec2>
+      points_xz_m{};      ///< The new path; empty: `turn_rad` and `length`.
   double turn_rad = 0.0;  ///< Turn of the end against the start; positive to the left.
   double length = 1.0;    ///< Factor of the length.
   bool straight = false;  ///< Removes the turn of the path first.
@@ -86,16 +88,16 @@ struct PathOp {
 struct MirrorOp {};
 
 struct RetimeKnot {
-  Moment at;            ///< In the motion as it is.
+  Moment at{};          ///< In the motion as it is.
   double time_s = 0.0;  ///< In the result.
   bool operator==(const RetimeKnot&) const = default;
 };
 /// Changes the time of the motion by a smooth monotone map.
 struct RetimeOp {
-  std::vector<RetimeKnot> knots;     ///< Ascending in both times.
-  std::optional<double> speed;       ///< 2 is twice as fast.
-  std::optional<double> duration_s;  ///< Of the result.
-  std::optional<double> rate_hz;     ///< Of the result; nullopt: as before.
+  std::vector<RetimeKnot> knots{};     ///< Ascending in both times.
+  std::optional<double> speed{};       ///< 2 is twice as fast.
+  std::optional<double> duration_s{};  ///< Duration of the result.
+  std::optional<double> rate_hz{};     ///< Rate of the result; nullopt: as before.
 };
 
 enum class CycleDrift {
@@ -105,10 +107,10 @@ enum class CycleDrift {
 };
 /// Makes a loop of the best cycle of the motion.
 struct CyclifyOp {
-  std::optional<double> min_period_s;
-  std::optional<double> max_period_s;
-  std::optional<Moment> from;  ///< nullopt: the best pair of frames.
-  std::optional<Moment> to;
+  std::optional<double> min_period_s{};
+  std::optional<double> max_period_s{};
+  std::optional<Moment> from{};  ///< nullopt: the best pair of frames.
+  std::optional<Moment> to{};
   CycleDrift drift = CycleDrift::kStraight;
   int cycles = 1;      ///< Number of copies in the result.
   bool force = false;  ///< Accepts a motion that is not cyclic.
@@ -120,24 +122,25 @@ struct PlantOp {};
 /// Detects the contacts of the feet again, or changes them by hand.
 struct ContactsOp {
   bool detect = false;
-  std::vector<ContactEdit> edits;
+  std::vector<ContactEdit> edits{};
 };
 
 enum class DetectConstraints { kSupports, kTouches };
 /// An object of the scene that hands can touch: a box along the world's axes.
 struct EditObject {
-  std::string name;
+  std::string name{};
   glm::dvec3 min_in_world{0.0};
   glm::dvec3 max_in_world{0.0};
 };
-/// Adds a constraint, or those that the motion shows.
+/// Adds a constraint, or the constraints that are detected in the motion.
 struct ConstrainOp {
-  std::optional<Constraint> constraint;
-  std::optional<Moment> from;  ///< Start of the constraint, by an annotation or a frame.
-  std::optional<Moment> to;
-  std::optional<DetectConstraints> detect;
-  std::vector<EditObject> objects;  ///< For kTouches.
-  bool adapt = false;               ///< The motion is adapted to its constraints now.
+  std::optional<Constraint> constraint{};
+  std::optional<Moment>
+      from{};  ///< Start of the constraint, by an annotation or a frame.
+  std::optional<Moment> to{};
+  std::optional<DetectConstraints> detect{};
+  std::vector<EditObject> objects{};  ///< For kTouches.
+  bool adapt = false;                 ///< The motion is adapted to its constraints now.
 };
 
 /// Sets a part of the body at one instant, with a smooth displacement around it.
@@ -145,17 +148,17 @@ struct PoseOp {
   Moment at = AtFrame{};
   HumanBone bone = HumanBone::kHips;
   /// Rotation that is added to the bone, in the frame of its parent.
-  std::optional<glm::dquat> rotation;
+  std::optional<glm::dquat> rotation{};
   /// Displacement of a hand, a foot or the hips in the world; the limb follows. [m]
-  std::optional<glm::dvec3> moved_m;
+  std::optional<glm::dvec3> moved_m{};
   double width_s = 0.5;  ///< Time before and after the instant in which it fades.
 };
 
 /// Adds a constant displacement.
 struct OffsetOp {
   HumanBone bone = HumanBone::kHips;
-  std::optional<glm::dquat> rotation;  ///< In the frame of the bone's parent.
-  std::optional<glm::dvec3> moved_m;   ///< Of the root in the world. [m]
+  std::optional<glm::dquat> rotation{};  ///< In the frame of the bone's parent.
+  std::optional<glm::dvec3> moved_m{};   ///< Translation of the root in the world. [m]
 };
 
 /// Changes the speed by a constant factor: 2 is twice as fast.
@@ -181,27 +184,27 @@ struct BalanceOp {
 
 /// Adds an annotation over the span ("tag").
 struct TagOp {
-  std::string text;
+  std::string text{};
 };
 /// Adds an annotation at an instant ("event").
 struct EventOp {
-  std::string text;
+  std::string text{};
   Moment at = AtFrame{};
 };
 struct CurveKey {
-  Moment at;
+  Moment at{};
   double value = 0.0;
   bool operator==(const CurveKey&) const = default;
 };
 /// Adds a number per frame, linear between keys ("curve").
 struct CurveOp {
-  std::string name;
-  std::vector<CurveKey> keys;
+  std::string name{};
+  std::vector<CurveKey> keys{};
 };
 
 /// Puts the motion on an avatar. No operation that needs the first body may follow.
 struct RetargetOp {
-  std::string avatar;       ///< Path of the avatar's file, relative to the recipe.
+  std::string avatar{};     ///< Path of the avatar's file, relative to the recipe.
   bool keep_world = false;  ///< Metres of the path are kept instead of scaled.
 };
 
@@ -236,15 +239,15 @@ inline constexpr int kEditOpVersion = 1;
 /// One operation of a recipe.
 struct EditOp {
   EditOpParameters parameters;
-  int version = 1;  ///< What a version computes never changes.
+  int version = 1;  ///< The results of a version never change.
   bool off = false;
-  EditSpan span;  ///< Where it has an effect.
+  EditSpan span{};  ///< Part of the motion that is changed.
   /// Fades of the effect before and after the span, with continuous speed and
   /// acceleration. [s]
   double blend_s = 0.0;
-  std::vector<EditGroup> groups;  ///< Empty: the whole body.
-  std::string why;                ///< Free text.
-  int line = 0;                   ///< In the recipe's file; 0: unknown.
+  std::vector<EditGroup> groups{};  ///< Empty: the whole body.
+  std::string why{};                ///< Free text.
+  int line = 0;                     ///< In the recipe's file; 0: unknown.
 };
 
 /// Returns the name of an operation in recipes, without its version: "scale_time".

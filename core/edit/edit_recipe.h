@@ -12,18 +12,20 @@ namespace marey {
 
 /// A motion that a recipe edits.
 struct EditSource {
-  std::string id;      ///< Empty for the first one, unless stated.
-  std::string path;    ///< Relative to the recipe's folder, or absolute.
-  std::string sha256;  ///< Of the file, 64 lower-case digits; empty: not recorded yet.
-  int line = 0;        ///< In the recipe's file; 0: unknown.
+  std::string id;    ///< Empty for the first one, unless stated.
+  std::string path;  ///< Relative to the recipe's folder, or absolute.
+  std::string
+      sha256;    ///< SHA-256 of the file, 64 lower-case digits; empty: not recorded yet.
+  int line = 0;  ///< In the recipe's file; 0: unknown.
   bool operator==(const EditSource&) const = default;
 };
 
 /// Largest figures that a result may have; nullopt: no limit.
 struct EditLimits {
-  std::optional<double> slide_mm;       ///< Drift of a foot within one contact.
-  std::optional<double> displaced_mm;   ///< Of a joint against its place in the source.
-  std::optional<double> constraint_mm;  ///< Error of a constraint.
+  std::optional<double> slide_mm;  ///< Drift of a foot within one contact.
+  std::optional<double>
+      displaced_mm;  ///< Displacement of a joint against its place in the source.
+  std::optional<double> constraint_mm;       ///< Error of a constraint.
   std::optional<double> acceleration_ratio;  ///< Peak against the source's peak.
   bool operator==(const EditLimits&) const = default;
 };

@@ -28,7 +28,7 @@ struct RestingSole {
                                                      const retarget::Contacts& contacts,
                                                      const FrameRange& frames);
 
-/// Part of the floor's plane that footprints determine.
+/// Properties of the floor that footprints determine.
 enum class FloorRank {
   kHeight,  ///< Its height only: all stances are at one place.
   kLine,    ///< Its tilt along the line on which they lie, too.

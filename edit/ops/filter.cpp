@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "edit/filter/filter_group.h"
+#include "edit/filter/held_foot.h"
 #include "edit/find/find_impacts.h"
-#include "edit/ops/filter_group.h"
-#include "edit/ops/hold_feet.h"
 #include "edit/signal/choose_smoothing.h"
 #include "edit/state/op_weights.h"
 #include "edit/state/plant_feet.h"
@@ -162,11 +162,11 @@ double feet_moved_m(const EditState& before, const EditState& after) {
   return largest;
 }
 
-void hold_feet(const EditState& before,
-               const std::array<std::vector<int>, 2>& impacts,
-               const FrameRange& frames,
-               EditState& state,
-               OpReport& report) {
+void hold_filtered_feet(const EditState& before,
+                        const std::array<std::vector<int>, 2>& impacts,
+                        const FrameRange& frames,
+                        EditState& state,
+                        OpReport& report) {
   std::array<HeldFoot, 2> feet;
   for (int side = 0; side < 2; ++side) {
     const auto s = static_cast<std::size_t>(side);
@@ -214,7 +214,7 @@ Result<EditState> apply_filter(const FilterOp& op,
   EditState out = state;
   const auto impacts = filter_groups(op, context, state, out.motion, report);
   mix_motion(state.motion, *weights, state, context.op.groups, out.motion);
-  if (op.keep_contacts) hold_feet(state, impacts, weights->frames, out, report);
+  if (op.keep_contacts) hold_filtered_feet(state, impacts, weights->frames, out, report);
   report.figures.emplace_back("feet_moved_mm", 1e3 * feet_moved_m(state, out));
   mark_displaced(out, state.motion, weights->frames, context.index);
   return out;

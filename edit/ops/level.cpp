@@ -48,7 +48,7 @@ RigidTransform levelling(const FloorFit& floor, double floor_height_m) {
   return out;
 }
 
-/// Result of levelling.
+/// Effect of levelling on the motion.
 struct Levelled {
   FloorFit floor;               ///< As found last.
   RigidTransform new_from_old;  ///< All rounds.

@@ -17,8 +17,8 @@ namespace marey::edit {
 /// last detection, with the edits by hand. Constraints move along. A span limits the
 /// stances that are used; the whole motion moves. Linear in frames.
 ///
-/// The tilt across a line of footprints is not observable, nor any tilt from stances at
-/// one place: that part of the tilt is left, with a finding.
+/// With footprints on one line the tilt across it is unknown, with stances at one place
+/// the whole tilt: that part of the tilt is left, and a finding says so.
 ///
 /// Figures: tilt_deg, tilt_sigma_deg (if observed), residual_mm (root mean square of the
 /// soles' distances from the plane), largest_residual_mm, raised_mm (of the support

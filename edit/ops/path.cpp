@@ -158,7 +158,7 @@ bool is_space(const Constraint& constraint) {
          std::holds_alternative<ForbiddenSpace>(constraint.goal);
 }
 
-/// Moves the constraints; reports constraints without an exact image.
+/// Moves the constraints; returns a finding for each one without an exact image.
 void move_constraints(const PathChange& change, EditState& state, OpReport& report) {
   const double duration_s = state.duration_s();
   for (Constraint& constraint : state.constraints.constraints) {

@@ -20,7 +20,7 @@ namespace marey::edit {
 /// since the first pose, whatever Motion::first_frame is. [s]
 struct EditState {
   Motion motion;
-  retarget::BodyMap map;  ///< Of the motion's skeleton.
+  retarget::BodyMap map;  ///< Map of the motion's skeleton.
   /// uncertainty[frame][joint]; empty: unknown.
   std::vector<std::vector<JointUncertainty>> uncertainty;
   ConstraintSet constraints;

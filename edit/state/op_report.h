@@ -28,7 +28,7 @@ struct OpContext {
   const EditInputs& inputs;
 };
 
-/// Facts about what an operation did.
+/// Results of one operation, for its report.
 struct OpReport {
   int index = 0;     ///< In EditRecipe::ops.
   std::string name;  ///< With its version: "cut@1".

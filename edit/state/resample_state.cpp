@@ -63,7 +63,7 @@ double spline_at(const std::vector<double>& values,
              6.0;
 }
 
-/// Where a new frame lies between two old ones.
+/// Place of a new frame between two old ones.
 struct Between {
   std::size_t before = 0;
   double share = 0.0;  ///< 0: the old frame itself.
@@ -237,7 +237,9 @@ Pose between_poses(const Pose& a, const Pose& b, double share) {
   if (share <= 0.0) return a;
   if (share >= 1.0) return b;
   Pose out = a;
-  out.root_in_world = glm::mix(a.root_in_world, b.root_in_world, share);
+  if (a.root_in_world != b.root_in_world) {
+    out.root_in_world = glm::mix(a.root_in_world, b.root_in_world, share);
+  }
   for (std::size_t j = 0; j < out.parent_from_joint.size(); ++j) {
     glm::dquat to = b.parent_from_joint[j];
     const glm::dquat& from = a.parent_from_joint[j];
@@ -301,6 +303,18 @@ void mark_invented(EditState& state, const FrameRange& frames, int op) {
   }
 }
 
+namespace {
+
+/// Joints from the hips on; those above may be far from the body.
+std::vector<char> is_body_joint(const EditState& state) {
+  std::vector<char> out(state.motion.skeleton.joints.size(), 1);
+  auto joint = state.motion.skeleton[state.map.hips()].parent;
+  for (; joint; joint = state.motion.skeleton[*joint].parent) out[index(*joint)] = 0;
+  return out;
+}
+
+}  // namespace
+
 double mark_displaced(EditState& state,
                       const Motion& before,
                       const FrameRange& frames,
@@ -310,6 +324,8 @@ double mark_displaced(EditState& state,
   if (frames.last < frames.first) return 0.0;
   touch(state.lineage, frames, op);
   double largest_m = 0.0;
+  const std::vector<char> counts = is_body_joint(state);
+  const std::size_t hips = index(state.map.hips());
   std::vector<RigidTransform> old_joints(before.skeleton.joints.size());
   std::vector<RigidTransform> new_joints(old_joints.size());
   for (int frame = frames.first; frame <= frames.last; ++frame) {
@@ -317,9 +333,10 @@ double mark_displaced(EditState& state,
     world_from_joints(before.skeleton, before.poses[t], old_joints);
     world_from_joints(state.motion.skeleton, state.motion.poses[t], new_joints);
     const RigidTransform moved_from_old =
-        relative ? new_joints[0] * inverse(old_joints[0]) : RigidTransform{};
+        relative ? new_joints[hips] * inverse(old_joints[hips]) : RigidTransform{};
     double frame_m = 0.0;
     for (std::size_t j = 0; j < old_joints.size(); ++j) {
+      if (!counts[j]) continue;
       const double moved_m = glm::distance(moved_from_old * old_joints[j].translation,
                                            new_joints[j].translation);
       frame_m = std::max(frame_m, moved_m);

@@ -19,15 +19,15 @@ namespace marey::edit {
 
 /// Returns the frames of a range as a motion of their own, which starts at time 0. Poses,
 /// uncertainty and lineage are copied to the bit. Annotations, constraints and contact
-/// edits are cut at its ends; those that lie outside are dropped. Linear in frames.
+/// edits are cut at its ends; all others are dropped. Linear in frames.
 /// Precondition: the range is within the motion.
 [[nodiscard]] EditState slice_state(const EditState& state, const FrameRange& frames);
 
 /// Returns the state on another time grid: frame k shows the instant `at_frame[k]` of the
 /// state (an index with its fraction). Whole numbers give poses to the bit; between, the
 /// root and rotations are interpolated by cubic splines. Annotations, contacts,
-/// constraints and contact edits move to the times at which their instants appear; what
-/// lies outside is dropped. Uncertainty is the larger of both neighbours'. Linear in
+/// constraints and contact edits move to the times at which their instants appear; all
+/// others are dropped. Uncertainty is the larger of both neighbours'. Linear in
 /// frames.
 /// Precondition: `at_frame` ascends strictly within [0, frames - 1]; `rate_hz` > 0.
 [[nodiscard]] EditState resample_state(const EditState& state,

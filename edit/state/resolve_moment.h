@@ -18,7 +18,7 @@ namespace marey::edit {
 /// the start or the end of the motion has no event there.
 [[nodiscard]] std::vector<Annotation> contact_events(const EditState& state);
 
-/// Whether an annotation with a duration means its start or its end.
+/// Selects the start or the end of an annotation with a duration.
 enum class AnnotationEnd { kStart, kEnd };
 
 /// Returns the frame of an instant, with its fraction; within the motion.

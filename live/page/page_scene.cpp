@@ -22,22 +22,6 @@ const char* name(PageSkeletonKind kind) {
   return "motion";
 }
 
-const char* name(PageConstraintKind kind) {
-  switch (kind) {
-    case PageConstraintKind::kPosition:
-      return "position";
-    case PageConstraintKind::kDistance:
-      return "distance";
-    case PageConstraintKind::kBox:
-      return "box";
-    case PageConstraintKind::kOrientation:
-      return "orientation";
-    case PageConstraintKind::kSupport:
-      return "support";
-  }
-  return "position";
-}
-
 PageJson joint_object(const Joint& joint) {
   return {{"name", joint.name},
           {"parent", joint.parent ? static_cast<int>(*joint.parent) : -1},
@@ -127,7 +111,28 @@ PageJson file_object(const std::optional<PageFile>& file) {
           {"report", file->report}};
 }
 
+const char* mode_of(const PageScene& scene) {
+  if (scene.edit) return "edit";
+  return scene.file ? "file" : "live";
+}
+
 }  // namespace
+
+const char* name(PageConstraintKind kind) {
+  switch (kind) {
+    case PageConstraintKind::kPosition:
+      return "position";
+    case PageConstraintKind::kDistance:
+      return "distance";
+    case PageConstraintKind::kBox:
+      return "box";
+    case PageConstraintKind::kOrientation:
+      return "orientation";
+    case PageConstraintKind::kSupport:
+      return "support";
+  }
+  return "position";
+}
 
 std::string scene_json(const PageScene& scene) {
   PageJson points;
@@ -137,7 +142,7 @@ std::string scene_json(const PageScene& scene) {
        {"version", 1},
        {"revision", scene.revision},
        {"title", scene.title},
-       {"mode", scene.file ? "file" : "live"},
+       {"mode", mode_of(scene)},
        {"rate_hz", scene.rate_hz},
        {"skeletons", array_of(scene.skeletons, skeleton_object)},
        {"cameras", array_of(scene.cameras, camera_object)},

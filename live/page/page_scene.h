@@ -48,6 +48,9 @@ struct PageCamera {
 
 enum class PageConstraintKind { kPosition, kDistance, kBox, kOrientation, kSupport };
 
+/// Returns the word in messages: "position".
+[[nodiscard]] const char* name(PageConstraintKind kind);
+
 struct PageConstraint {
   std::string id{};
   std::size_t skeleton = 0;  ///< Index of the scene's skeleton.
@@ -104,9 +107,10 @@ struct PageFile {
 };
 
 /// Everything that does not change from frame to frame. A scene with `file` is a
-/// recording; one without is live.
+/// recording; one without is live, or the page of marey edit.
 struct PageScene {
-  int revision = 1;  ///< Incremented whenever another member changes.
+  bool edit = false;  ///< The page of marey edit (docs/formats/edit_page.md).
+  int revision = 1;   ///< Incremented whenever another member changes.
   std::string title{};
   double rate_hz = 30.0;
   std::vector<PageSkeleton> skeletons{};

@@ -19,6 +19,9 @@ enum class MessageSlot : std::size_t {
   kStatus,
   kWizard,
   kConstraints,
+  kRevision,
+  kProgress,
+  kRendered,
   kThumbnail,  ///< Slot of the first camera; the others follow.
 };
 inline constexpr std::size_t kMessageSlots =

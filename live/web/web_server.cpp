@@ -72,6 +72,12 @@ std::size_t slot_of(PageMessage kind) {
       return index(MessageSlot::kWizard);
     case PageMessage::kConstraints:
       return index(MessageSlot::kConstraints);
+    case PageMessage::kRevision:
+      return index(MessageSlot::kRevision);
+    case PageMessage::kProgress:
+      return index(MessageSlot::kProgress);
+    case PageMessage::kRendered:
+      return index(MessageSlot::kRendered);
   }
   return index(MessageSlot::kStatus);
 }
@@ -98,6 +104,10 @@ void WebServer::put(WebContent content) {
   running_->state.put(std::move(content));
 }
 
+void WebServer::remove(std::string_view path) {
+  running_->state.remove(path);
+}
+
 void WebServer::publish_text(PageMessage kind, std::string_view json) {
   running_->state.publish(slot_of(kind), json);
   running_->ring();
@@ -121,6 +131,11 @@ void WebServer::answer_text(ClientId client, std::string_view json) {
 
 void WebServer::answer_frame(ClientId client, std::string_view bytes) {
   running_->state.answer(client, true, bytes);
+  running_->ring();
+}
+
+void WebServer::queue_text(ClientId client, std::string_view json) {
+  running_->state.queue(client, json);
   running_->ring();
 }
 

@@ -18,7 +18,16 @@
 namespace marey::live {
 
 /// Kind of a text message to the pages. Only the newest of each kind is sent.
-enum class PageMessage { kScene, kStatus, kWizard, kConstraints };
+enum class PageMessage {
+  kScene,
+  kStatus,
+  kWizard,
+  kConstraints,
+  // Of the page of marey edit.
+  kRevision,
+  kProgress,
+  kRendered,
+};
 
 /// Serves the page and exchanges messages with it: docs/formats/page.md. The server has
 /// its own thread; every function here may be called from any thread.
@@ -52,6 +61,10 @@ class WebServer {
   /// is_web_path(path), bytes not null.
   void put(WebContent content);
 
+  /// Removes content. Answers that are being sent are completed. No effect if there is
+  /// none at this path.
+  void remove(std::string_view path);
+
   /// Sends a text to every page. A new scene removes unsent frames and thumbnails,
   /// because they belong to the old one.
   void publish_text(PageMessage kind, std::string_view json);
@@ -63,6 +76,9 @@ class WebServer {
   /// unsent text and the newest unsent frame are kept.
   void answer_text(ClientId client, std::string_view json);
   void answer_frame(ClientId client, std::string_view bytes);
+  /// Sends a text to one page, if it is still connected, after those queued before. At
+  /// most WebState::kMaxQueued unsent ones are kept; beyond that the oldest are dropped.
+  void queue_text(ClientId client, std::string_view json);
 
   /// Moves the texts received since the last call to `out`, oldest first; `out` is
   /// emptied before. At most 256 texts of 16 kB are kept; beyond that the oldest are

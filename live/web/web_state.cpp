@@ -15,6 +15,12 @@ void WebState::put(WebContent content) {
   content_.insert_or_assign(std::move(path), std::move(content));
 }
 
+void WebState::remove(std::string_view path) {
+  const std::lock_guard lock(content_mutex_);
+  const auto found = content_.find(path);
+  if (found != content_.end()) content_.erase(found);
+}
+
 std::optional<WebContent> WebState::find(std::string_view path) const {
   const std::lock_guard lock(content_mutex_);
   const auto found = content_.find(path);
@@ -60,7 +66,22 @@ void WebState::answer(ClientId client, bool is_binary, std::string_view message)
   answer.waits = true;
 }
 
+void WebState::queue(ClientId client, std::string_view message) {
+  const std::lock_guard lock(messages_mutex_);
+  const auto found = answers_.find(client);
+  if (found == answers_.end()) return;
+  std::deque<std::string>& queue = found->second.queue;
+  if (queue.size() >= kMaxQueued) queue.pop_front();
+  queue.emplace_back(message);
+}
+
 bool WebState::take_answer(Answers& answers, std::string& out, bool& is_binary) {
+  if (!answers.queue.empty()) {
+    out = std::move(answers.queue.front());
+    answers.queue.pop_front();
+    is_binary = false;
+    return true;
+  }
   Answer& answer = answers.text.waits ? answers.text : answers.frame;
   if (!answer.waits) return false;
   out.assign(answer.message);

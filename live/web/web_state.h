@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -32,6 +33,8 @@ class WebState {
 
   /// Adds or replaces content. Precondition: is_web_path(content.path), bytes not null.
   void put(WebContent content);
+  /// Removes content; no effect if there is none at this path.
+  void remove(std::string_view path);
   [[nodiscard]] std::optional<WebContent> find(std::string_view path) const;
 
   /// Stores the newest message of a slot. A scene removes frames and thumbnails.
@@ -44,6 +47,9 @@ class WebState {
   /// Stores an answer for one page, replacing an unsent one. No effect if that page is
   /// closed.
   void answer(ClientId client, bool is_binary, std::string_view message);
+  /// Adds a text for one page to those that wait, in order. If kMaxQueued wait, the
+  /// oldest is dropped. No effect if that page is closed.
+  void queue(ClientId client, std::string_view message);
   /// Copies the page's next message into `out`; returns false if there is none. The scene
   /// is first; then answers alternate with messages to all pages.
   bool take_message(Page& page, std::string& out, bool& is_binary);
@@ -53,6 +59,8 @@ class WebState {
   void count(std::uint64_t WebCounts::*what);
   [[nodiscard]] WebCounts counts() const;
 
+  static constexpr std::size_t kMaxQueued = 16;
+
  private:
   struct Answer {
     std::string message;
@@ -61,6 +69,7 @@ class WebState {
   struct Answers {
     Answer text;
     Answer frame;
+    std::deque<std::string> queue;
   };
   bool take_answer(Answers& answers, std::string& out, bool& is_binary);
 

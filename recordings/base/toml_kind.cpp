@@ -25,13 +25,14 @@ struct KindKeys {
 };
 
 /// The most specific kinds first. Calibrations have names of cameras as keys.
-const std::array<KindKeys, 8>& kinds_of_toml() {
-  static const std::array<KindKeys, 8> kKinds{
+const std::array<KindKeys, 9>& kinds_of_toml() {
+  static const std::array<KindKeys, 9> kKinds{
       {{TomlKind::kCalibration, "a calibration", {}},
        {TomlKind::kSession,
         "a session",
         {"trial", "board", "wand", "media", "tags"},
         {"camera"}},
+       {TomlKind::kEditRecipe, "a recipe of edits", {"source", "op"}, {"limits"}},
        {TomlKind::kSubject, "a subject", {"tips", "joint"}, {"tag"}},
        {TomlKind::kCharacter,
         "a character",

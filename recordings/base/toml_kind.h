@@ -18,6 +18,7 @@ enum class TomlKind {
   kFloor,
   kBoneMap,
   kMarkerMap,
+  kEditRecipe,
 };
 
 /// Returns the kind of a document by its first keys; its reader checks the rest.

@@ -156,6 +156,11 @@ bool TomlReader::is_table(std::string_view key) const {
   return value != nullptr && std::holds_alternative<Table>(value->content);
 }
 
+bool TomlReader::is_text(std::string_view key) const {
+  const TomlValue* value = find(key);
+  return value != nullptr && std::holds_alternative<std::string>(value->content);
+}
+
 int TomlReader::line(std::string_view key) const {
   if (const TomlEntry* found = entry(key)) return found->line;
   const bool is_table = value_ && std::holds_alternative<Table>(value_->content);
@@ -225,7 +230,11 @@ double TomlReader::number(std::string_view key, const Limits& limits) {
   if (value == nullptr) return 0.0;
   const std::optional<double> number = as_number(*value);
   if (!number) {
-    fail(key, in_quotes(key) + " must be a number", as_the_page_shows(document_->page));
+    const bool is_real = std::holds_alternative<double>(value->content);
+    fail(key,
+         in_quotes(key) +
+             (is_real ? " must be a number that is finite" : " must be a number"),
+         as_the_page_shows(document_->page));
     return 0.0;
   }
   if (*number >= limits.low && *number <= limits.high) return *number;
@@ -281,6 +290,22 @@ void TomlReader::append_numbers(std::string_view key,
   append_exact(cause, static_cast<int>(count));
   fail(key, cause + " numbers", as_the_page_shows(document_->page));
   out.resize(start + count);
+}
+
+std::vector<std::string> TomlReader::texts(std::string_view key) {
+  std::vector<std::string> values;
+  const auto* array = require_as<Array>(key, "a list of texts in quotes");
+  if (array == nullptr) return values;
+  for (const TomlValue& item : *array) {
+    if (const auto* text = std::get_if<std::string>(&item.content)) {
+      values.push_back(*text);
+    } else {
+      fail(key,
+           in_quotes(key) + " must be a list of texts in quotes",
+           as_the_page_shows(document_->page));
+    }
+  }
+  return values;
 }
 
 std::vector<double> TomlReader::numbers(std::string_view key, std::size_t count) {

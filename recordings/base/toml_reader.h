@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -80,6 +81,7 @@ class TomlReader {
 
   [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
   [[nodiscard]] bool is_table(std::string_view key) const;
+  [[nodiscard]] bool is_text(std::string_view key) const;
   /// Returns every key, in the order of the file.
   [[nodiscard]] std::vector<std::string> keys() const;
 
@@ -89,6 +91,8 @@ class TomlReader {
   [[nodiscard]] bool boolean(std::string_view key);
   [[nodiscard]] double number(std::string_view key, const Limits& limits);
   [[nodiscard]] int integer(std::string_view key, const Limits& limits);
+  /// Returns an array of texts of any length.
+  [[nodiscard]] std::vector<std::string> texts(std::string_view key);
   /// Returns an array of numbers. Mistake: their number is not `count`.
   [[nodiscard]] std::vector<double> numbers(std::string_view key, std::size_t count);
   /// Returns an array of `rows` arrays of `columns` numbers, row after row.
@@ -103,6 +107,8 @@ class TomlReader {
   /// Returns the tables of [[key]]; empty if the key is missing.
   [[nodiscard]] std::vector<TomlReader> tables(std::string_view key);
 
+  /// Changes the table's name in messages: "filter@1" instead of "[[op]]".
+  void set_name(std::string name) { name_ = std::move(name); }
   /// Stores a mistake found by the caller, at the line of `key`, or at the table's if it
   /// has no such key.
   void fail(std::string_view key, std::string cause, std::string next);

@@ -92,6 +92,16 @@ void TomlWriter::text(std::string_view key, std::string_view value) {
   text_ += '\n';
 }
 
+void TomlWriter::texts(std::string_view key, std::span<const std::string_view> values) {
+  start_line(key);
+  text_ += '[';
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i > 0) text_ += ", ";
+    append_quoted(values[i]);
+  }
+  text_ += "]\n";
+}
+
 void TomlWriter::boolean(std::string_view key, bool value) {
   start_line(key);
   text_ += value ? "true\n" : "false\n";
@@ -136,6 +146,23 @@ void TomlWriter::matrix(std::string_view key,
     append_row(values.subspan(at, columns));
   }
   text_ += "]\n";
+}
+
+void TomlWriter::inline_tables(std::string_view key, std::span<const TomlWriter> rows) {
+  start_line(key);
+  text_ += '[';
+  for (const TomlWriter& row : rows) {
+    text_ += "\n  {";
+    // Quoted texts hold no line ends: each line is one key.
+    for (std::size_t at = 0; at < row.text_.size();) {
+      const std::size_t end = row.text_.find('\n', at);
+      text_ += at == 0 ? " " : ", ";
+      text_.append(row.text_, at, end - at);
+      at = end + 1;
+    }
+    text_ += " },";
+  }
+  text_ += rows.empty() ? "]\n" : "\n]\n";
 }
 
 }  // namespace marey::recordings

@@ -22,6 +22,8 @@ class TomlWriter {
 
   // Not overloaded, to prevent conversions of a bool or an int to a number.
   void text(std::string_view key, std::string_view value);
+  /// Writes an array of texts.
+  void texts(std::string_view key, std::span<const std::string_view> values);
   void boolean(std::string_view key, bool value);
   void integer(std::string_view key, int value);
   void integers(std::string_view key, std::initializer_list<int> values);
@@ -32,6 +34,10 @@ class TomlWriter {
   }
   /// Writes an array of rows of `columns` numbers. Precondition: `values` are whole rows.
   void matrix(std::string_view key, std::span<const double> values, std::size_t columns);
+
+  /// Writes an array of inline tables, a line for each. Precondition: the rows hold lines
+  /// of keys only, no tables.
+  void inline_tables(std::string_view key, std::span<const TomlWriter> rows);
 
   [[nodiscard]] const std::string& str() const { return text_; }
 

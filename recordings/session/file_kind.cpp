@@ -36,6 +36,8 @@ FileKind kind_of_toml(TomlDocument& document) {
       return FileKind::kBoneMap;
     case TomlKind::kMarkerMap:
       return FileKind::kMarkerMap;
+    case TomlKind::kEditRecipe:
+      return FileKind::kEditRecipe;
     case TomlKind::kUnknown:
       break;
   }

@@ -20,6 +20,7 @@ enum class FileKind {
   kFloor,
   kBoneMap,
   kMarkerMap,
+  kEditRecipe,
   // XML:
   kConstraints,
   kLenses,  ///< A calibration of another program, also in YAML.

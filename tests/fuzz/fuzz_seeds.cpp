@@ -19,6 +19,7 @@
 #include "recordings/markers/marker_file.h"
 #include "recordings/markers/trc.h"
 #include "recordings/motion/bvh.h"
+#include "tests/fuzz/fuzz_seeds_edits.h"
 #include "tests/fuzz/fuzz_seeds_osc.h"
 #include "tests/fuzz/fuzz_seeds_results.h"
 
@@ -203,6 +204,7 @@ bool write_all(const std::filesystem::path& folder) {
          write_file(folder / "web_request/request", request).has_value() &&
          write_constraint_sets(folder / "constraints") && write_motions(folder) &&
          fuzz::write_result_seeds(folder, small_motion()) &&
+         fuzz::write_edit_seeds(folder / "edit_recipe") &&
          write_file(folder / "osc/pose", fuzz::osc_pose()).has_value() &&
          write_file(folder / "osc/commands", fuzz::osc_commands()).has_value() &&
          write_file(folder / "trc/odd.trc", odd).has_value() &&

@@ -21,6 +21,7 @@
 #include "recordings/body/character_file.h"
 #include "recordings/body/constraints_file.h"
 #include "recordings/body/floor_file.h"
+#include "recordings/edit/edit_recipe_file.h"
 #include "recordings/motion/asf.h"
 #include "recordings/motion/bvh.h"
 #include "recordings/motion/npz.h"
@@ -167,6 +168,11 @@ TEST(InspectWritten, ReadsMotionsTablesAndSettings) {
   EXPECT_EQ(kind_of(folder / "character.toml"), "character file");
   ASSERT_TRUE(recordings::write_file(folder / "floor.toml", recordings::floor_text({})));
   EXPECT_EQ(kind_of(folder / "floor.toml"), "floor");
+  EditRecipe recipe;
+  recipe.sources.push_back({"", "a.bvh", "", 0});
+  recipe.ops.push_back({MirrorOp{}, 1, false, {}, 0.0, {}, "", 0});
+  ASSERT_TRUE(recordings::write_edit_recipe(folder / "a.edit.toml", recipe));
+  EXPECT_EQ(kind_of(folder / "a.edit.toml"), "edit recipe");
 }
 
 TEST(InspectWritten, ReadsTakes) {

@@ -36,7 +36,7 @@ struct OpScene {
     return apply(std::get<Op>(op.parameters), OpContext{op, 0, inputs}, state, report);
   }
 
-  /// Returns a figure of the report; NaN if there is none.
+  /// Returns a figure of the report; NaN if it is missing.
   [[nodiscard]] double figure(std::string_view name) const {
     for (const auto& [key, value] : report.figures) {
       if (key == name) return value;

@@ -171,6 +171,39 @@ TEST(WebPages, AreAnsweredOneByOne) {
   EXPECT_EQ(second.receive_message()->payload, "to all");
 }
 
+TEST(WebPages, ReceiveQueuedAnswersInOrderAndTheNewestOfTooMany) {
+  WebServer server = serve_pages();
+  WebSocketClient page(server.port());
+  ASSERT_EQ(status(page.upgrade()), 101);
+  page.send_frame(kText, "hello");
+  ASSERT_TRUE(server.wait_for_text(5000ms));
+  std::vector<ReceivedText> texts;
+  server.take_texts(texts);
+  // The first is large, so that the others wait for it.
+  server.queue_text(texts[0].client, std::string(std::size_t{32} << 20, 'x'));
+  std::this_thread::sleep_for(50ms);
+  for (int i = 0; i < 20; ++i) server.queue_text(texts[0].client, std::to_string(i));
+  server.queue_text(ClientId{99}, "to nobody");
+  EXPECT_EQ(page.receive_message()->payload.size(), std::size_t{32} << 20);
+  for (int i = 4; i < 20; ++i) {
+    EXPECT_EQ(page.receive_message()->payload, std::to_string(i));
+  }
+}
+
+TEST(WebPages, ReceiveTheMessagesOfAnEdit) {
+  WebServer server = serve_pages();
+  server.publish_text(PageMessage::kRevision, "revision 1");
+  server.publish_text(PageMessage::kProgress, "progress");
+  server.publish_text(PageMessage::kRendered, "rendered");
+  server.publish_text(PageMessage::kRevision, "revision 2");
+  server.publish_text(PageMessage::kScene, "scene");
+  WebSocketClient page(server.port());
+  ASSERT_EQ(status(page.upgrade()), 101);
+  for (const char* text : {"scene", "progress", "rendered", "revision 2"}) {
+    EXPECT_EQ(page.receive_message()->payload, text);
+  }
+}
+
 TEST(WebPages, AreClosedWhenTheyTalkTooMuch) {
   WebServer server = serve_pages();
   WebSocketClient page(server.port());

@@ -60,6 +60,8 @@ TEST(TomlKind, IsNamedInPlaceOfASession) {
             "this is a bone map, not a session");
   EXPECT_EQ(session_refusal("format = 1\navatar = \"a.glb\"\nsubject = \"s.toml\"\n"),
             "this is a character, not a session");
+  EXPECT_EQ(session_refusal("format = 1\n[source]\npath = \"a.bvh\"\n"),
+            "this is a recipe of edits, not a session");
 }
 
 TEST(TomlKind, IsNamedByEveryReader) {

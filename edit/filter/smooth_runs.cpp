@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/ops/smooth_runs.h"
+#include "edit/filter/smooth_runs.h"
 
 #include <algorithm>
 #include <array>

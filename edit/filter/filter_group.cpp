@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/ops/filter_group.h"
+#include "edit/filter/filter_group.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "edit/ops/channel_filter.h"
+#include "edit/filter/channel_filter.h"
 #include "edit/signal/rotation_channels.h"
 #include "edit/state/op_weights.h"
 #include <glm/geometric.hpp>

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/ops/hold_feet.h"
+#include "edit/filter/held_foot.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
-#include "edit/ops/smooth_runs.h"
+#include "edit/filter/smooth_runs.h"
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>

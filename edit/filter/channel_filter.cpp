@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/ops/channel_filter.h"
+#include "edit/filter/channel_filter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/edit/edit_outputs.h"
+#include "app/shell/console.h"
+#include "app/shell/exit_codes.h"
+#include "core/base/result.h"
+#include "core/edit/edit_recipe.h"
+
+namespace marey::app {
+
+/// Returns the files that a pattern names, ascending: * and ? stand for any characters of
+/// one name, also of a folder's. Errors (bad input): none.
+[[nodiscard]] Result<std::vector<std::filesystem::path>> files_of_pattern(
+    const std::string& pattern);
+
+/// Returns a name for the result of each file: its path below the folder that all have in
+/// common, without the extension, with points for slashes. Names are all different.
+[[nodiscard]] std::vector<std::string> names_of_files(
+    const std::vector<std::filesystem::path>& files);
+
+/// Applies one recipe to many motions, in parallel by motion, each as the first source.
+/// Goes on after a failure. Writes the results and edit.csv, a line per result. Returns
+/// kQualityGate if a motion failed or a figure is above its limit. Same bytes for any
+/// number of threads.
+Exit run_edit_batch(const EditRecipe& recipe,
+                    const std::filesystem::path& recipe_file,
+                    const std::vector<std::filesystem::path>& motions,
+                    const EditOutput& output,
+                    Console& console);
+
+}  // namespace marey::app

@@ -1,0 +1,300 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/edit/edit_outputs.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "edit/state/measure_constraints.h"
+#include "edit/state/plant_feet.h"
+#include "edit/state/resolve_moment.h"
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/edit/edit_json.h"
+#include "core/base/format_text.h"
+#include "core/pose.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/body/constraints_file.h"
+#include "recordings/body/mannequin.h"
+#include "recordings/edit/annotations_file.h"
+#include "recordings/gltf/gltf.h"
+#include "recordings/motion/npz.h"
+#include "retarget/contacts/frame_marks.h"
+
+namespace marey::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Returns the largest acceleration of a joint with a bone. [m/s^2]
+double peak_acceleration(const Motion& motion) {
+  const std::size_t joints = motion.skeleton.joints.size();
+  std::array<std::vector<RigidTransform>, 3> world;
+  for (auto& frame : world) frame.resize(joints);
+  double peak = 0.0;
+  for (std::size_t t = 0; t < motion.poses.size(); ++t) {
+    world_from_joints(motion.skeleton, motion.poses[t], world[t % 3]);
+    if (t < 2) continue;
+    for (std::size_t j = 0; j < joints; ++j) {
+      if (!motion.skeleton.joints[j].bone) continue;
+      const glm::dvec3 change = world[t % 3][j].translation -
+                                2.0 * world[(t - 1) % 3][j].translation +
+                                world[(t - 2) % 3][j].translation;
+      peak = std::max(peak, glm::length(change));
+    }
+  }
+  return peak * motion.rate.hz * motion.rate.hz;
+}
+
+double largest_figure(const edit::Rendered& rendered, const std::string& name) {
+  double largest = 0.0;
+  for (const edit::OpReport& report : rendered.reports) {
+    for (const auto& [figure, value] : report.figures) {
+      if (figure == name) largest = std::max(largest, value);
+    }
+  }
+  return largest;
+}
+
+/// Returns true for the skeletons that marey makes, which a mannequin fits.
+bool is_marey_skeleton(const Skeleton& skeleton) {
+  if (skeleton.joints.size() != kHumanBoneCount) return false;
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    const Joint& joint = skeleton.joints[j];
+    if (joint.bone != human_bones()[j]) return false;
+    if (joint.parent_from_joint.rotation != glm::dquat(1, 0, 0, 0)) return false;
+  }
+  return true;
+}
+
+/// Returns the look of the body that the last retarget operation put on.
+const BodyLook& look_of_result(const EditRecipe& recipe, const EditFiles& files) {
+  const BodyLook* look = &files.look;
+  for (const EditOp& op : recipe.ops) {
+    const auto* retarget = std::get_if<RetargetOp>(&op.parameters);
+    if (retarget == nullptr || op.off) continue;
+    look = &files.avatars.at(retarget->avatar).look;
+  }
+  return *look;
+}
+
+recordings::NpzContacts npz_contacts(const edit::EditState& state) {
+  recordings::NpzContacts out;
+  std::vector<std::vector<char>> marks;
+  constexpr std::array<HumanBone, 4> kParts{HumanBone::kLeftFoot,
+                                            HumanBone::kLeftToes,
+                                            HumanBone::kRightFoot,
+                                            HumanBone::kRightToes};
+  const std::size_t count = state.motion.poses.size();
+  for (std::size_t part = 0; part < kParts.size(); ++part) {
+    out.names.emplace_back(name(kParts[part]));
+    const retarget::FootContacts& foot = state.contacts.feet[part / 2];
+    marks.push_back(retarget::frame_marks(part % 2 == 0 ? foot.heel : foot.ball, count));
+  }
+  for (std::size_t t = 0; t < count; ++t) {
+    for (const auto& part : marks) {
+      out.bears.push_back(static_cast<std::uint8_t>(part[t]));
+    }
+  }
+  return out;
+}
+
+/// Writes the files of one result.
+class EditWriter {
+ public:
+  EditWriter(const edit::EditState& state, const BodyLook& look, fs::path stem)
+      : state_(state), look_(look), stem_(std::move(stem)) {}
+
+  Status write(const std::vector<MotionFormat>& formats) {
+    for (const MotionFormat format : formats) {
+      if (const Status ok = write_motion_as(format); !ok) return ok;
+    }
+    if (!state_.constraints.constraints.empty()) {
+      const Status ok = add(".constraints.xml", [&](const fs::path& path) {
+        return recordings::write_constraints(path, state_.constraints);
+      });
+      if (!ok) return ok;
+    }
+    return add(".annotations.json", [&](const fs::path& path) {
+      return recordings::write_annotations(path, annotations());
+    });
+  }
+
+  std::vector<fs::path>& files() { return files_; }
+
+ private:
+  /// The state's annotations, with the events that its contacts show.
+  [[nodiscard]] Annotations annotations() const {
+    Annotations out = state_.annotations;
+    for (Annotation& event : edit::contact_events(state_)) {
+      out.notes.push_back(std::move(event));
+    }
+    std::sort(out.notes.begin(), out.notes.end(), [](const auto& a, const auto& b) {
+      return std::pair(a.start_s, a.text) < std::pair(b.start_s, b.text);
+    });
+    out.notes.erase(std::unique(out.notes.begin(), out.notes.end()), out.notes.end());
+    return out;
+  }
+
+  template <class Write>
+  Status add(const std::string& ending, const Write& write) {
+    const fs::path path = stem_.string() + ending;
+    if (const Status ok = write(path); !ok) return ok;
+    files_.push_back(path);
+    return Done{};
+  }
+
+  Status write_motion_as(MotionFormat format) {
+    const std::string ending = "." + std::string(name(format));
+    if (format == MotionFormat::kNpz) {
+      return add(ending, [&](const fs::path& path) {
+        return recordings::write_npz(
+            path, state_.motion, {state_.uncertainty, npz_contacts(state_), {}});
+      });
+    }
+    if (format == MotionFormat::kGlb && look_.file.empty() &&
+        is_marey_skeleton(state_.motion.skeleton)) {
+      return add(ending, [&](const fs::path& path) {
+        const Proportions proportions = proportions_of(state_.motion.skeleton);
+        return recordings::write_character(path,
+                                           state_.motion.skeleton,
+                                           recordings::make_mannequin_mesh(proportions),
+                                           &state_.motion);
+      });
+    }
+    if (!can_hold(format, state_.motion.skeleton, look_)) return Done{};
+    return add(ending, [&](const fs::path& path) {
+      return write_motion_file(path, format, state_.motion, look_);
+    });
+  }
+
+  const edit::EditState& state_;
+  const BodyLook& look_;
+  fs::path stem_;
+  std::vector<fs::path> files_;
+};
+
+void check_limit(const std::optional<double>& limit,
+                 double value,
+                 const std::string& figure,
+                 const std::string& unit,
+                 const EditFigures& figures,
+                 const std::string& next,
+                 std::vector<Finding>& out) {
+  if (!limit || value <= *limit) return;
+  Finding finding = poor_finding("limit",
+                                 figures.name,
+                                 figure + " is " + format_text("%.3g", value) + " " +
+                                     unit + ", limit " + format_text("%.3g", *limit),
+                                 next);
+  out.push_back(finding.measured(value, *limit, unit));
+}
+
+}  // namespace
+
+std::vector<std::string> edit_names(const EditRecipe& recipe, std::size_t outputs) {
+  if (outputs == 1) return {recipe.name};
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < outputs; ++i) {
+    out.push_back(recipe.name + "." + std::to_string(i + 1));
+  }
+  return out;
+}
+
+std::vector<EditFigures> measure_edit(const EditRecipe& recipe,
+                                      const EditFiles& files,
+                                      const edit::Rendered& rendered) {
+  const edit::EditState& source = files.inputs.sources.at(recipe.sources.front().id);
+  const double source_peak = peak_acceleration(source.motion);
+  const auto names = edit_names(recipe, rendered.outputs.size());
+  std::vector<EditFigures> out;
+  for (std::size_t i = 0; i < rendered.outputs.size(); ++i) {
+    const edit::EditState& state = rendered.outputs[i];
+    EditFigures figures;
+    figures.name = names[i];
+    figures.frames = state.frame_count();
+    figures.duration_s = state.duration_s();
+    const edit::SlideFigures slide = edit::measure_slide(state);
+    figures.slide_mm = slide.worst_drift_mm;
+    figures.slide_cm_per_s = slide.mean_cm_per_s;
+    figures.displaced_mm = largest_figure(rendered, "displaced_mm");
+    if (source_peak > 0.0) {
+      figures.acceleration_ratio = peak_acceleration(state.motion) / source_peak;
+    }
+    figures.constraint_mm = 1e3 * edit::worst_constraint_m(state);
+    for (const edit::FrameLineage& frame : state.lineage.frames) {
+      if (frame.trust == Source::kInferred) ++figures.inferred_frames;
+    }
+    out.push_back(std::move(figures));
+  }
+  return out;
+}
+
+std::vector<Finding> assess_edit(const EditRecipe& recipe,
+                                 const std::vector<EditFigures>& figures) {
+  const EditLimits& limits = recipe.limits;
+  std::vector<Finding> out;
+  for (const EditFigures& result : figures) {
+    check_limit(limits.slide_mm,
+                result.slide_mm,
+                "the largest drift of a standing foot",
+                "mm",
+                result,
+                "add the plant operation, or correct the contacts",
+                out);
+    check_limit(limits.displaced_mm,
+                result.displaced_mm,
+                "the largest displacement of a joint",
+                "mm",
+                result,
+                "look at edit.json for the operation, and weaken it",
+                out);
+    check_limit(limits.constraint_mm,
+                result.constraint_mm,
+                "the largest error of a constraint",
+                "mm",
+                result,
+                "adapt the motion (constrain with adapt = true), or move the target",
+                out);
+    check_limit(limits.acceleration_ratio,
+                result.acceleration_ratio,
+                "the peak acceleration against the source's",
+                "times",
+                result,
+                "give the operation a longer blend or overlap",
+                out);
+  }
+  return out;
+}
+
+Result<std::vector<fs::path>> write_edit(const EditRecipe& recipe,
+                                         const EditFiles& files,
+                                         const edit::Rendered& rendered,
+                                         const std::vector<EditFigures>& figures,
+                                         const EditOutput& output) {
+  std::vector<MotionFormat> formats = output.formats;
+  if (formats.empty()) {
+    formats = {
+        MotionFormat::kNpz, MotionFormat::kBvh, MotionFormat::kGlb, MotionFormat::kVrma};
+  }
+  const BodyLook& look = look_of_result(recipe, files);
+  const auto names = edit_names(recipe, rendered.outputs.size());
+  std::vector<fs::path> out;
+  for (std::size_t i = 0; i < rendered.outputs.size(); ++i) {
+    EditWriter writer(rendered.outputs[i], look, output.out / names[i]);
+    if (const Status ok = writer.write(formats); !ok) return ok.error();
+    std::move(writer.files().begin(), writer.files().end(), std::back_inserter(out));
+  }
+  constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
+  const std::string text =
+      edit_json(recipe, files, rendered, figures).dump(1, ' ', false, kReplace) + "\n";
+  const fs::path json = output.out / (recipe.name + ".edit.json");
+  if (const Status ok = recordings::write_file(json, text); !ok) return ok.error();
+  out.push_back(json);
+  return out;
+}
+
+}  // namespace marey::app

@@ -1,0 +1,358 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Measures splices of captured motions against crossfades.
+//
+//   measure_splices ../shared/data/mocap [--pairs]
+//
+// Joins each of seven clips (walk, run, punch, kick, dance of CMU and Bandai Namco) to
+// each other one: 42 ordered pairs. The second clip is brought to the first one's rate
+// and body before, for all methods. The splice chooses its frames; a crossfade of 0.3 s
+// with linear weights is measured at the same frames, and at five random pairs of frames
+// (fixed seed). All methods get the best planar move for their frames.
+//
+// Slide: horizontal speed of ankle and toe joint in the frames of the overlap, while the
+// clip that weighs more has the contact there (retarget::detect_contacts() of that clip).
+// A second label is independent of that detection: slower than 0.2 m/s and lower than
+// 5 cm in that clip (retarget::label_contacts()); the clips themselves slide under it, so
+// their own slide in these frames stands next to it. Acceleration: the largest of a joint
+// within 0.3 s of the join, over the largest of the two whole clips. The measure has its
+// own forward kinematics, labels and differences; it takes from the splice only which
+// frame of which clip a frame shows. --pairs prints each pair.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "edit/find/find_splice.h"
+#include "edit/ops/splice.h"
+#include "edit/splice/splice_source.h"
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "benchmarks/editing/splice_figures.h"
+#include "benchmarks/parts/captured_clips.h"
+#include "benchmarks/parts/result_table.h"
+#include "retarget/contacts/frame_marks.h"
+#include "retarget/contacts/measure_contacts.h"
+
+namespace marey {
+namespace {
+
+using edit::EditState;
+
+constexpr double kSlideBar_cm_per_s = 0.3;
+constexpr double kAccelerationBar = 1.1;
+constexpr int kRandomPairs = 5;
+
+struct Clip {
+  std::string name;
+  EditState state;
+};
+
+double figure_of(const edit::OpReport& report, const std::string& name) {
+  for (const auto& [key, value] : report.figures) {
+    if (key == name) return value;
+  }
+  return 0.0;
+}
+
+struct SpliceRun {
+  Joined joined;
+  edit::OpReport report;
+  int leave = 0;
+  int enter = 0;
+};
+
+Result<SpliceRun> splice(const EditState& a, const EditState& b, double overlap_s) {
+  SpliceOp op;
+  op.source = "next";
+  op.overlap_s = overlap_s;
+  EditOp with;
+  with.parameters = op;
+  edit::EditInputs inputs;
+  inputs.sources.emplace("next", b);
+  SpliceRun out;
+  const auto made = edit::apply_splice(op, {with, 0, inputs}, a, out.report);
+  if (!made) return made.error();
+  out.leave = static_cast<int>(figure_of(out.report, "leave_frame"));
+  out.enter = static_cast<int>(figure_of(out.report, "enter_frame"));
+  out.joined.motion = made->motion;
+  int join = -1;
+  for (const edit::FrameLineage& entry : made->lineage.frames) {
+    const EditState& clip = entry.source == 0 ? a : b;
+    out.joined.shown.push_back(
+        {entry.source,
+         std::clamp(static_cast<int>(std::lround(entry.source_frame)),
+                    0,
+                    clip.frame_count() - 1)});
+    if (entry.source == 0) ++join;
+  }
+  const int half = static_cast<int>(std::lround(0.5 * kOverlap_s * a.motion.rate.hz));
+  out.joined.join = join;
+  out.joined.first = std::max(0, join - half);
+  out.joined.last = std::min(made->frame_count() - 1, join + half);
+  return out;
+}
+
+/// One pair by one method.
+struct Measured {
+  std::string pair;
+  double slide = 0.0;         ///< [cm/s], contacts of the clips
+  double worst = 0.0;         ///< [cm/s], largest speed of a point
+  double slow_slide = 0.0;    ///< [cm/s], second label
+  double clip_slide = 0.0;    ///< [cm/s], second label, the clips' own
+  double acceleration = 0.0;  ///< Over the clips'.
+  std::string cause;
+};
+
+struct PairOfClips {
+  std::string name;
+  const EditState& a;
+  const EditState& b;
+  std::array<ClipLabels, 2> labels;
+  double peak = 0.0;  ///< Largest acceleration of both clips.
+};
+
+/// Slide of the clips themselves in the frames that the joined motion shows.
+double own_slow_slide(const Joined& joined, const PairOfClips& pair) {
+  Slide sum;
+  for (int clip = 0; clip < 2; ++clip) {
+    const EditState& state = clip == 0 ? pair.a : pair.b;
+    int first = -1;
+    int last = -1;
+    for (int t = joined.first; t <= joined.last; ++t) {
+      const ShownFrame& shown = joined.shown[static_cast<std::size_t>(t)];
+      if (shown.clip != clip) continue;
+      if (first < 0) first = shown.frame;
+      last = shown.frame;
+    }
+    if (first < 0) continue;
+    Joined alone{state.motion, {}, 0, first, last};
+    for (int t = 0; t < state.frame_count(); ++t) alone.shown.push_back({clip, t});
+    const Slide slide =
+        slide_of(alone, state.map, {&pair.labels[0].slow, &pair.labels[1].slow});
+    sum.way_m += slide.way_m;
+    sum.steps += slide.steps;
+  }
+  return sum.cm_per_s(pair.a.motion.rate.hz);
+}
+
+Measured measure(const Joined& joined, const PairOfClips& pair) {
+  const double hz = pair.a.motion.rate.hz;
+  const int near = static_cast<int>(std::lround(0.3 * hz));
+  Measured out;
+  out.pair = pair.name;
+  const Slide slide =
+      slide_of(joined, pair.a.map, {&pair.labels[0].contacts, &pair.labels[1].contacts});
+  out.slide = slide.cm_per_s(hz);
+  out.worst = 100.0 * slide.worst_m * hz;
+  out.slow_slide =
+      slide_of(joined, pair.a.map, {&pair.labels[0].slow, &pair.labels[1].slow})
+          .cm_per_s(hz);
+  out.clip_slide = own_slow_slide(joined, pair);
+  out.acceleration =
+      peak_acceleration(joined.motion, joined.join - near, joined.join + near) /
+      pair.peak;
+  return out;
+}
+
+std::string cause_of(const Measured& m, const edit::OpReport& report) {
+  std::string out;
+  if (m.slide > kSlideBar_cm_per_s) out += "slide ";
+  if (m.acceleration > kAccelerationBar) out += "acceleration ";
+  if (out.empty()) return out;
+  for (const Finding& finding : report.findings) {
+    if (finding.id != "candidates") out += "[" + finding.id + "] ";
+  }
+  return out;
+}
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+void add_summary(const std::string& method,
+                 const std::vector<Measured>& all,
+                 ResultTable& table) {
+  const auto column = [&](double Measured::*value) {
+    std::vector<double> out;
+    for (const Measured& m : all) out.push_back(m.*value);
+    return out;
+  };
+  const auto worst = [&](double Measured::*value) {
+    double out = 0.0;
+    for (const Measured& m : all) out = std::max(out, m.*value);
+    return out;
+  };
+  const auto within = std::count_if(all.begin(), all.end(), [](const Measured& m) {
+    return m.slide <= kSlideBar_cm_per_s && m.acceleration <= kAccelerationBar;
+  });
+  table.rows.push_back({method,
+                        static_cast<double>(all.size()),
+                        median_of(column(&Measured::slide)),
+                        worst(&Measured::slide),
+                        median_of(column(&Measured::worst)),
+                        median_of(column(&Measured::slow_slide)),
+                        median_of(column(&Measured::clip_slide)),
+                        median_of(column(&Measured::acceleration)),
+                        worst(&Measured::acceleration),
+                        static_cast<double>(within)});
+}
+
+std::vector<Clip> read_seven(const std::filesystem::path& mocap) {
+  std::vector<Clip> out;
+  for (const auto& [name, path] :
+       {std::pair{"walk CMU", "cmu_asfamc/02_01.amc"},
+        std::pair{"run CMU", "cmu_asfamc/02_03.amc"},
+        std::pair{"punch CMU", "cmu_asfamc/02_05.amc"},
+        std::pair{"dance CMU", "cmu_bvh_tmoco/05_06.bvh"},
+        std::pair{"walk Bandai", "bandai/dataset-1_walk_normal_001.bvh"},
+        std::pair{"kick Bandai", "bandai/dataset-1_kick_normal_001.bvh"},
+        std::pair{"dance Bandai", "bandai/dataset-1_dance-short_normal_001.bvh"}}) {
+    const auto clip = read_clip(mocap / path, name);
+    if (!clip) {
+      std::fprintf(stderr, "%s\n", clip.error().message().c_str());
+      continue;
+    }
+    auto state = edit::make_edit_state(
+        {clip->character.skeleton, {clip->rate_hz}, 0, clip->poses});
+    if (state) out.push_back({name, *std::move(state)});
+  }
+  return out;
+}
+
+/// The second clip at the first one's rate and on its body.
+std::optional<EditState> fitted(const EditState& a, const EditState& b) {
+  edit::EditInputs inputs;
+  inputs.sources.emplace("next", b);
+  edit::OpReport report;
+  auto made = edit::fit_splice_source(a, "next", inputs, report);
+  if (!made) return std::nullopt;
+  auto state = edit::make_edit_state(std::move(made->motion), {}, 1);
+  if (!state) return std::nullopt;
+  return *std::move(state);
+}
+
+struct Results {
+  std::vector<Measured> overlap;
+  std::vector<Measured> displaced;
+  std::vector<Measured> same_frames;
+  std::vector<Measured> random_frames;
+};
+
+void measure_pair(const PairOfClips& pair, std::mt19937& random, Results& out) {
+  const auto made = splice(pair.a, pair.b, kOverlap_s);
+  if (made) {
+    out.overlap.push_back(measure(made->joined, pair));
+    out.overlap.back().cause = cause_of(out.overlap.back(), made->report);
+    out.same_frames.push_back(
+        measure(crossfade(pair.a, pair.b, made->leave, made->enter), pair));
+  } else {
+    std::printf("%s: %s\n", pair.name.c_str(), made.error().message().c_str());
+  }
+  if (const auto displaced = splice(pair.a, pair.b, 0.0)) {
+    out.displaced.push_back(measure(displaced->joined, pair));
+    out.displaced.back().cause = cause_of(out.displaced.back(), displaced->report);
+  }
+  for (int k = 0; k < kRandomPairs; ++k) {
+    const auto draw = [&](const EditState& state) {
+      const auto count = static_cast<unsigned>(state.frame_count() * 8 / 10);
+      return static_cast<int>(random() % count) + state.frame_count() / 10;
+    };
+    const int leave = draw(pair.a);
+    const int enter = draw(pair.b);
+    out.random_frames.push_back(measure(crossfade(pair.a, pair.b, leave, enter), pair));
+  }
+}
+
+void print_pairs(const char* method, const std::vector<Measured>& all) {
+  std::printf("\n%s: slide, worst cm/s; second label, clips'; acceleration\n", method);
+  for (const Measured& m : all) {
+    std::printf("%-28s %6.2f %7.2f  %6.2f %6.2f  %5.2f  %s\n",
+                m.pair.c_str(),
+                m.slide,
+                m.worst,
+                m.slow_slide,
+                m.clip_slide,
+                m.acceleration,
+                m.cause.c_str());
+  }
+}
+
+int run(const std::filesystem::path& mocap, bool has_pairs) {
+  const std::vector<Clip> clips = read_seven(mocap);
+  std::mt19937 random(7);
+  Results results;
+  for (const Clip& a : clips) {
+    for (const Clip& b : clips) {
+      if (&a == &b) continue;
+      const auto second = fitted(a.state, b.state);
+      if (!second) continue;
+      PairOfClips pair{a.name + " - " + b.name, a.state, *second, {}, 0.0};
+      pair.labels = {labels_of(pair.a), labels_of(pair.b)};
+      pair.peak = std::max(peak_acceleration(pair.a.motion, 0, pair.a.frame_count()),
+                           peak_acceleration(pair.b.motion, 0, pair.b.frame_count()));
+      measure_pair(pair, random, results);
+    }
+  }
+  ResultTable table{"splices",
+                    "Joins of captured motions",
+                    {{"method"},
+                     {"joins", 0},
+                     {"slide cm/s, median", 2},
+                     {"worst", 2},
+                     {"fastest point, median", 2},
+                     {"second label, median", 2},
+                     {"clips' own", 2},
+                     {"acceleration, median", 2},
+                     {"worst", 2},
+                     {"within 0.3 cm/s and 1.1", 0}},
+                    {},
+                    {}};
+  add_summary("splice", results.overlap, table);
+  add_summary("splice, overlap 0", results.displaced, table);
+  add_summary("crossfade, same frames", results.same_frames, table);
+  add_summary("crossfade, random frames", results.random_frames, table);
+  print_table(table);
+  for (const auto* all : {&results.overlap, &results.displaced}) {
+    for (const Measured& m : *all) {
+      if (m.cause.empty()) continue;
+      std::printf("over a limit%s: %s: %.2f cm/s, acceleration %.2f: %s\n",
+                  all == &results.displaced ? " (overlap 0)" : "",
+                  m.pair.c_str(),
+                  m.slide,
+                  m.acceleration,
+                  m.cause.c_str());
+    }
+  }
+  if (has_pairs) {
+    print_pairs("splice", results.overlap);
+    print_pairs("splice, overlap 0", results.displaced);
+    print_pairs("crossfade, same frames", results.same_frames);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace marey
+
+int main(int argc, char** argv) {
+  const bool has_pairs = argc == 3 && std::strcmp(argv[2], "--pairs") == 0;
+  if (argc != 2 && !has_pairs) {
+    std::fprintf(stderr, "usage: measure_splices MOCAP_FOLDER [--pairs]\n");
+    return 2;
+  }
+  return marey::run(argv[1], has_pairs);
+}

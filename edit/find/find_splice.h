@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "edit/find/planar_match.h"
+#include "edit/state/edit_state.h"
+
+#include "core/base/frame_range.h"
+#include "retarget/contacts/detect_contacts.h"
+
+namespace marey::edit {
+
+/// Feet that bear in one frame.
+enum class SupportClass { kNone, kLeft, kRight, kBoth };
+/// Precondition: the frame is one of the contacts'.
+[[nodiscard]] SupportClass support_class(const retarget::Contacts& contacts, int frame);
+/// Returns true if one frame stands on the left foot alone and the other on the right
+/// one.
+[[nodiscard]] bool supports_oppose(SupportClass a, SupportClass b);
+
+/// Frames in which the first motion may be left, and the second one entered. A frame that
+/// the user gave is a window of one frame.
+struct SpliceWindows {
+  FrameRange leave;
+  FrameRange enter;
+};
+
+/// A pair of frames that show the same instant of the joined motion.
+struct SpliceCandidate {
+  int leave = 0;  ///< In the first motion.
+  int enter = 0;  ///< In the second motion.
+  PlanarMatch match;
+};
+
+struct FindSpliceOptions {
+  MatchOptions match;
+  bool align = true;  ///< False: the second motion is not moved, its place counts.
+  /// Pairs that stand on opposite feet are accepted.
+  bool allow_opposed = false;
+  int max_candidates = 5;
+  /// Candidates differ by more than this in one of their frames. [s]
+  double separation_s = 0.15;
+};
+
+/// Returns the best pairs of frames for a transition, by cost: the weighted difference of
+/// joints and of their velocities over five frames round each, after the best planar move
+/// (Kovar, Gleicher and Pighin, "Motion graphs", 2002; match_windows()). Of equal costs
+/// the later `leave` comes first. Pairs that stand on opposite feet are left out; the
+/// result is empty if there are no others. Windows with more than 40 000 pairs are
+/// searched on a grid, whose best places are then searched frame by frame. Cost: some
+/// microseconds per pair.
+/// Precondition: both states have the same skeleton and rate; the windows are within the
+/// motions and not empty.
+[[nodiscard]] std::vector<SpliceCandidate> find_splices(
+    const EditState& first,
+    const EditState& second,
+    const SpliceWindows& windows,
+    const FindSpliceOptions& options = {});
+
+}  // namespace marey::edit

@@ -1,0 +1,274 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "edit/ops/constrain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "edit/find/found_constraints.h"
+#include "edit/state/adapt_state.h"
+#include "edit/state/check_op_keys.h"
+#include "edit/state/resolve_moment.h"
+
+#include "core/base/in_quotes.h"
+#include "retarget/constraints/check_constraints.h"
+
+namespace marey::edit {
+namespace {
+
+/// The ends of an interval must be fully active despite rounding. [frames]
+constexpr double kSlackFrames = 0.01;
+constexpr double kForever_s = 1e12;
+
+Status check_objects(const ConstrainOp& op) {
+  if (op.objects.empty()) return Done{};
+  if (op.detect != DetectConstraints::kTouches) {
+    return bad_input("objects",
+                     "are used only by detect = \"touches\"",
+                     "remove them, or detect touches");
+  }
+  std::set<std::string_view> names;
+  for (const EditObject& object : op.objects) {
+    const std::string where = "object " + in_quotes(object.name);
+    if (object.name.empty()) {
+      return bad_input("objects", "an object has no name", "name each object");
+    }
+    if (!names.insert(object.name).second) {
+      return bad_input(where, "its name is used twice", "give each object its own name");
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      // False for NaN.
+      if (std::isfinite(object.min_in_world[axis]) &&
+          std::isfinite(object.max_in_world[axis]) &&
+          object.min_in_world[axis] <= object.max_in_world[axis]) {
+        continue;
+      }
+      return bad_input(where,
+                       "its min is above its max, or not finite",
+                       "give the corners of the box in metres");
+    }
+  }
+  return Done{};
+}
+
+Status check_wanted(const ConstrainOp& op, const OpContext& context) {
+  if (!op.constraint && !op.detect && !op.adapt) {
+    return bad_input("constrain",
+                     "has nothing to do",
+                     "give a constraint, detect = \"supports\" or \"touches\", or "
+                     "adapt = true");
+  }
+  if (op.constraint && op.detect) {
+    return bad_input("detect",
+                     "a constraint and a detection are in one operation",
+                     "use two operations");
+  }
+  const bool has_constraint = op.constraint.has_value();
+  const OpKeys keys{.span = has_constraint || op.detect.has_value(),
+                    .blend = has_constraint};
+  if (const Status ok = check_op_keys(context.op, keys); !ok) return ok.error();
+  if (!has_constraint && (op.from || op.to)) {
+    return bad_input("from",
+                     "states the time of a constraint, and there is none",
+                     "use a span to limit a detection");
+  }
+  return check_objects(op);
+}
+
+/// Sets the times of a constraint from the operation, if it states any.
+Status resolve_times(const ConstrainOp& op,
+                     const OpContext& context,
+                     const EditState& state,
+                     Constraint& constraint) {
+  Activation& when = constraint.activation;
+  if (when.start_duration_s == 0.0) when.start_duration_s = context.op.blend_s;
+  if (when.stop_duration_s == 0.0) when.stop_duration_s = context.op.blend_s;
+  EditSpan span{op.from, op.to};
+  if (span.is_whole()) span = context.op.span;
+  if (span.is_whole()) return Done{};
+  const auto frames = resolve_span(state, span);
+  if (!frames) return frames.error();
+  const double hz = state.motion.rate.hz;
+  if (span.from) {
+    when.start_s = (frames->first - kSlackFrames) / hz - when.start_duration_s;
+  }
+  if (span.to) when.stop_s = (frames->last + kSlackFrames) / hz;
+  return Done{};
+}
+
+/// Returns the detected constraint that an id means, also if it was changed by hand
+/// before.
+Constraint* detected_constraint(ConstraintSet& set, const std::string& id) {
+  const std::string given(given_name(id));
+  if (Constraint* found = set.find(std::string(kFoundPrefix) + given)) return found;
+  return is_found(id) ? set.find(given) : nullptr;
+}
+
+Status place_constraint(const ConstrainOp& op, const OpContext& context, EditState& out) {
+  Constraint placed = *op.constraint;
+  if (Constraint* detected = detected_constraint(out.constraints, placed.id)) {
+    const std::string given(given_name(placed.id));
+    if (placed.point.segment.empty()) {
+      Activation when = placed.activation;
+      placed = *detected;
+      if (when.start_duration_s > 0.0) {
+        placed.activation.start_duration_s = when.start_duration_s;
+      }
+      if (when.stop_duration_s > 0.0) {
+        placed.activation.stop_duration_s = when.stop_duration_s;
+      }
+      if (when.start_s) placed.activation.start_s = when.start_s;
+      if (when.stop_s) placed.activation.stop_s = when.stop_s;
+    }
+    if (const Status ok = resolve_times(op, context, out, placed); !ok) return ok.error();
+    placed.id = given;
+    *detected = std::move(placed);
+    return Done{};
+  }
+  if (out.constraints.find(placed.id) != nullptr) {
+    return bad_input("constraint " + in_quotes(placed.id),
+                     "an earlier operation has already placed a constraint of this id",
+                     "give it another id, or remove the earlier operation");
+  }
+  if (is_found(placed.id)) {
+    return bad_input("constraint " + in_quotes(placed.id),
+                     "no detection has found a constraint of this id",
+                     "detect before this operation, or use an id without \"found\"");
+  }
+  if (const Status ok = resolve_times(op, context, out, placed); !ok) return ok.error();
+  out.constraints.constraints.push_back(std::move(placed));
+  return Done{};
+}
+
+/// Interval in which a constraint acts, fades included. [s]
+struct ActiveTime {
+  double from_s = 0.0;
+  double to_s = 0.0;
+};
+
+ActiveTime active_time(const Constraint& constraint) {
+  const Activation& when = constraint.activation;
+  return {when.start_s ? *when.start_s + when.start_duration_s : -kForever_s,
+          when.stop_s.value_or(kForever_s)};
+}
+
+bool overlap(const ActiveTime& a, const ActiveTime& b) {
+  return a.from_s <= b.to_s && b.from_s <= a.to_s;
+}
+
+bool is_support(const Constraint& constraint) {
+  return std::holds_alternative<Support>(constraint.goal);
+}
+
+/// Returns true if a constraint changed by hand stands for this one.
+bool is_changed_by_hand(const Constraint& found, const ConstraintSet& set) {
+  return std::any_of(
+      set.constraints.begin(), set.constraints.end(), [&](const Constraint& other) {
+        return !is_found(other.id) && other.point.segment == found.point.segment &&
+               family_name(other.id) == family_name(found.id) &&
+               overlap(active_time(other), active_time(found));
+      });
+}
+
+/// Gives the id the next free number.
+void make_unique(const ConstraintSet& set, Constraint& constraint) {
+  const std::string family =
+      std::string(kFoundPrefix) + std::string(family_name(constraint.id));
+  for (int number = 2; set.find(constraint.id) != nullptr; ++number) {
+    constraint.id = family + " " + std::to_string(number);
+  }
+}
+
+/// Removes the constraints of this operation that contradict others.
+Status drop_contradictions(const Character& character,
+                           std::set<std::string>& added,
+                           ConstraintSet& set,
+                           OpReport& report) {
+  while (true) {
+    const Status ok = retarget::check_constraints(set, character);
+    if (ok) return Done{};
+    const auto named = std::find_if(added.begin(), added.end(), [&](const auto& id) {
+      return ok.error().where == "constraint \"" + id + "\"";
+    });
+    if (named == added.end()) return ok.error();
+    report.findings.push_back(fair_finding("contradiction",
+                                           ok.error().where,
+                                           "it was left out: " + ok.error().cause,
+                                           "correct the contacts at that time"));
+    std::erase_if(set.constraints, [&](const Constraint& c) { return c.id == *named; });
+    added.erase(named);
+  }
+}
+
+Status replace_found(const ConstrainOp& op,
+                     const OpContext& context,
+                     const Character& character,
+                     EditState& out,
+                     OpReport& report) {
+  const auto span = resolve_span(out, context.op.span);
+  if (!span) return span.error();
+  const double hz = out.motion.rate.hz;
+  const ActiveTime wanted{context.op.span.from ? span->first / hz : -kForever_s,
+                          context.op.span.to ? span->last / hz : kForever_s};
+  const bool supports = *op.detect == DetectConstraints::kSupports;
+  ConstraintSet& set = out.constraints;
+  std::erase_if(set.constraints, [&](const Constraint& c) {
+    return is_found(c.id) && is_support(c) == supports && overlap(active_time(c), wanted);
+  });
+  std::set<std::string> added;
+  int changed_by_hand = 0;
+  for (Constraint& found :
+       supports ? found_supports(out) : found_touches(out, op.objects)) {
+    if (!overlap(active_time(found), wanted)) continue;
+    if (is_changed_by_hand(found, set)) {
+      ++changed_by_hand;
+      continue;
+    }
+    make_unique(set, found);
+    added.insert(found.id);
+    set.constraints.push_back(std::move(found));
+  }
+  if (const Status ok = drop_contradictions(character, added, set, report); !ok) {
+    return ok.error();
+  }
+  report.figures.emplace_back("found", static_cast<double>(added.size()));
+  report.figures.emplace_back("changed_by_hand", changed_by_hand);
+  return Done{};
+}
+
+}  // namespace
+
+Result<EditState> apply_constrain(const ConstrainOp& op,
+                                  const OpContext& context,
+                                  const EditState& state,
+                                  OpReport& report) {
+  if (const Status ok = check_wanted(op, context); !ok) return ok.error();
+  const auto character = character_of(state);
+  if (!character) return character.error();
+  EditState out = state;
+  if (op.constraint) {
+    if (const Status ok = place_constraint(op, context, out); !ok) return ok.error();
+  }
+  if (op.detect) {
+    const Status ok = replace_found(op, context, *character, out, report);
+    if (!ok) return ok.error();
+  }
+  if (const Status ok = retarget::check_constraints(out.constraints, *character); !ok) {
+    return ok.error();
+  }
+  if (!op.adapt) {
+    report.figures.emplace_back("constraints",
+                                static_cast<double>(out.constraints.constraints.size()));
+    return out;
+  }
+  if (const Status ok = adapt_state(out, report); !ok) return ok.error();
+  return out;
+}
+
+}  // namespace marey::edit

@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "edit/splice/splice_poses.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "edit/state/resample_state.h"
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "core/base/assert.h"
+#include "core/pose.h"
+#include "core/transform.h"
+#include "retarget/contacts/frame_marks.h"
+#include "retarget/contacts/support_frame.h"
+
+namespace marey::edit {
+namespace {
+
+// Time in which a foot's share in the anchor of the root rises and falls. [s]
+constexpr double kAnchorRamp_s = 0.06;
+
+// Places of both ankles of a pose.
+std::array<glm::dvec3, 2> ankles_of(const EditState& body, const Pose& pose) {
+  const auto world = world_from_joints(body.motion.skeleton, pose);
+  return {world[index(body.map.leg(0).end)].translation,
+          world[index(body.map.leg(1).end)].translation};
+}
+
+// Places between ankle and toe joint, where the foot bears.
+std::array<glm::dvec3, 2> soles_of(const EditState& body, const Pose& pose) {
+  const auto world = world_from_joints(body.motion.skeleton, pose);
+  std::array<glm::dvec3, 2> out{};
+  for (std::size_t side = 0; side < 2; ++side) {
+    out[side] = world[index(body.map.leg(static_cast<int>(side)).end)].translation;
+    const auto toes =
+        body.map
+            .joint_of[index(side == 0 ? HumanBone::kLeftToes : HumanBone::kRightToes)];
+    if (toes) out[side] = 0.5 * (out[side] + world[index(*toes)].translation);
+  }
+  return out;
+}
+
+std::vector<char> stance_marks(const EditState& state, std::size_t side) {
+  return retarget::frame_marks(state.contacts.feet[side].stance,
+                               static_cast<std::size_t>(state.frame_count()));
+}
+
+// The inverse of the right Jacobian of rotation vectors: the rate of `d` for which
+// Exp(d) turns with `turn_rate`, in its own axes.
+glm::dvec3 rate_of_vector(const glm::dvec3& d, const glm::dvec3& turn_rate) {
+  const double angle = glm::length(d);
+  constexpr double kSmall = 1e-4;
+  const double factor = angle < kSmall
+                            ? 1.0 / 12.0
+                            : 1.0 / (angle * angle) - (1.0 + std::cos(angle)) /
+                                                          (2.0 * angle * std::sin(angle));
+  const glm::dvec3 once = glm::cross(d, turn_rate);
+  return turn_rate + 0.5 * once + factor * glm::cross(d, once);
+}
+
+// A displacement that starts with a value and a rate, and decays to rest over a time,
+// with continuous acceleration and none at the start.
+struct Decay {
+  glm::dvec3 value{0.0};
+  glm::dvec3 rate{0.0};  // Per frame.
+
+  [[nodiscard]] glm::dvec3 at(double frame, int length) const {
+    const double x = frame / length;
+    const double x3 = x * x * x;
+    const double x4 = x3 * x;
+    const double x5 = x4 * x;
+    return (1.0 - 10.0 * x3 + 15.0 * x4 - 6.0 * x5) * value +
+           (x - 6.0 * x3 + 8.0 * x4 - 3.0 * x5) * (static_cast<double>(length) * rate);
+  }
+};
+
+// Displacements of one side of the join, from the join on.
+struct SideDecay {
+  int length = 0;  // Frames; 0: the side keeps its poses.
+  Decay root;
+  std::vector<Decay> joints;  // Rotation vectors in the joint's own axes.
+};
+
+// Rotation of a joint per frame, in its own axes, towards the frame `to`.
+glm::dvec3 turn_to(const Pose& from, const Pose& to, std::size_t joint) {
+  return rotation_vector(glm::conjugate(from.parent_from_joint[joint]) *
+                         to.parent_from_joint[joint]);
+}
+
+glm::dquat turned_by(const glm::dquat& q, const glm::dvec3& vector) {
+  return glm::normalize(q * rotation_from_vector(vector));
+}
+
+// The poses at the join and their velocities per frame, forward in time.
+struct JoinPoses {
+  const Pose& a;
+  const Pose& before_a;
+  const Pose& b;
+  const Pose& after_b;
+  double share_a = 0.5;  // Of the gap, taken by the first side.
+};
+
+SideDecay decay_of(const JoinPoses& join, bool is_first, int length) {
+  SideDecay out;
+  out.length = length;
+  const double share = is_first ? join.share_a : join.share_a - 1.0;
+  // Time runs away from the join: backwards on the first side.
+  const double sense = is_first ? -1.0 : 1.0;
+  const Pose& own = is_first ? join.a : join.b;
+  const glm::dvec3 root_a = join.a.root_in_world - join.before_a.root_in_world;
+  const glm::dvec3 root_b = join.after_b.root_in_world - join.b.root_in_world;
+  out.root = {share * (join.b.root_in_world - join.a.root_in_world),
+              sense * share * (root_b - root_a)};
+  for (std::size_t j = 0; j < own.parent_from_joint.size(); ++j) {
+    const glm::dvec3 gap = turn_to(join.a, join.b, j);
+    const glm::dvec3 turn_a = turn_to(join.before_a, join.a, j);
+    const glm::dvec3 turn_b = turn_to(join.b, join.after_b, j);
+    const glm::dvec3 value = share * gap;
+    // Both velocities in the axes of the pose at the join.
+    const glm::dquat a_from_join = rotation_from_vector(join.share_a * gap);
+    const glm::dquat b_from_join = rotation_from_vector((join.share_a - 1.0) * gap);
+    const glm::dvec3 at_join_a = glm::conjugate(a_from_join) * turn_a;
+    const glm::dvec3 at_join_b = glm::conjugate(b_from_join) * turn_b;
+    const glm::dvec3 wanted = glm::mix(at_join_a, at_join_b, join.share_a);
+    const glm::dvec3 rate =
+        rate_of_vector(value, wanted - (is_first ? at_join_a : at_join_b));
+    out.joints.push_back({value, sense * rate});
+  }
+  return out;
+}
+
+// The pose of a side, `frame` frames from the join.
+void displace(const SideDecay& decay, int frame, Pose& pose) {
+  pose.root_in_world += decay.root.at(frame, decay.length);
+  for (std::size_t j = 0; j < decay.joints.size(); ++j) {
+    glm::dquat& q = pose.parent_from_joint[j];
+    q = turned_by(q, decay.joints[j].at(frame, decay.length));
+  }
+}
+
+const Pose& pose_at(const EditState& state, int frame) {
+  return state.motion
+      .poses[static_cast<std::size_t>(std::clamp(frame, 0, state.frame_count() - 1))];
+}
+
+}  // namespace
+
+glm::dvec3 footprint_gap(const EditState& first,
+                         const EditState& second,
+                         const JoinFrames& frames) {
+  glm::dvec3 sum(0.0);
+  double count = 0.0;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto a = stance_marks(first, side);
+    const auto b = stance_marks(second, side);
+    for (std::size_t k = 0; k < frames.weight.size(); ++k) {
+      const std::size_t t = static_cast<std::size_t>(frames.start) + k;
+      if (a[t] == 0 || b[k] == 0) continue;
+      sum += soles_of(first, first.motion.poses[t])[side] -
+             soles_of(second, second.motion.poses[k])[side];
+      count += 1.0;
+    }
+  }
+  if (count == 0.0) return sum;
+  return {sum.x / count, 0.0, sum.z / count};
+}
+
+void mix_overlap(const EditState& first,
+                 const EditState& second,
+                 const JoinFrames& frames,
+                 EditState& out) {
+  const auto shares =
+      retarget::support_shares(out.contacts, out.motion.rate, kAnchorRamp_s);
+  for (std::size_t k = 0; k < frames.weight.size(); ++k) {
+    const double weight = frames.weight[k];
+    const std::size_t t = static_cast<std::size_t>(frames.start) + k;
+    const Pose& a = first.motion.poses[t];
+    const Pose& b = second.motion.poses[k];
+    Pose mixed = between_poses(a, b, weight);
+    if (weight > 0.0 && weight < 1.0) {
+      const auto feet_a = ankles_of(first, a);
+      const auto feet_b = ankles_of(second, b);
+      const auto feet = ankles_of(out, mixed);
+      for (std::size_t side = 0; side < 2; ++side) {
+        const glm::dvec3 off = glm::mix(feet_a[side], feet_b[side], weight) - feet[side];
+        mixed.root_in_world += shares[t].present * shares[t].foot[side] * off;
+      }
+    }
+    out.motion.poses[t] = std::move(mixed);
+  }
+}
+
+FrameRange displace_join(const EditState& first,
+                         const EditState& second,
+                         const JoinFrames& frames,
+                         int blend_frames,
+                         EditState& out) {
+  MAREY_ASSERT(frames.weight.size() == 1 && frames.start == frames.join);
+  const int join = frames.join;
+  const int length_a = std::min(blend_frames, join);
+  const int length_b = std::min(blend_frames, second.frame_count() - 1);
+  if (length_a == 0 && length_b == 0) return {0, -1};
+  const double share_a = length_a == 0 ? 0.0 : length_b == 0 ? 1.0 : 0.5;
+  const JoinPoses poses{pose_at(first, join),
+                        pose_at(first, join - 1),
+                        pose_at(second, 0),
+                        pose_at(second, 1),
+                        share_a};
+  const SideDecay before = decay_of(poses, true, std::max(1, length_a));
+  const SideDecay after = decay_of(poses, false, std::max(1, length_b));
+  for (int k = 0; k < std::max(1, length_a); ++k) {
+    displace(before, k, out.motion.poses[static_cast<std::size_t>(join - k)]);
+  }
+  for (int k = 1; k < length_b; ++k) {
+    displace(after, k, out.motion.poses[static_cast<std::size_t>(join + k)]);
+  }
+  return {join - std::max(0, length_a - 1), join + std::max(0, length_b - 1)};
+}
+
+}  // namespace marey::edit

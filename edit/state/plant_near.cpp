@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "edit/state/plant_near.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "core/base/assert.h"
+#include "core/transform.h"
+#include "retarget/feet/adapt_to_ground.h"
+#include "retarget/feet/plan_foot_path.h"
+
+namespace marey::edit {
+namespace {
+
+using retarget::FootContacts;
+using retarget::FootPlace;
+using PlannedFeet = std::array<std::vector<std::optional<FootPlace>>, 2>;
+
+// A swing shorter than this has no room for a fade. [s]
+constexpr double kMinFade_s = 0.15;
+// Fade of a foot that does not stand again. [s]
+constexpr double kFreeFade_s = 0.4;
+
+bool overlaps(const FrameRange& a, const FrameRange& b) {
+  return a.first <= b.last && b.first <= a.last;
+}
+
+// Returns the indices of the first and the last stance to plant; nullopt if there is
+// none.
+std::optional<std::pair<std::size_t, std::size_t>> stances_near(
+    const std::vector<FrameRange>& stances, const FrameRange& zone, double min_gap) {
+  std::optional<std::pair<std::size_t, std::size_t>> out;
+  for (std::size_t k = 0; k < stances.size(); ++k) {
+    if (!overlaps(stances[k], zone)) continue;
+    if (!out) out = {k, k};
+    out->second = k;
+  }
+  if (!out) return out;
+  const auto gap = [&](std::size_t k) { return stances[k + 1].first - stances[k].last; };
+  while (out->first > 0 && gap(out->first - 1) < min_gap) --out->first;
+  while (out->second + 1 < stances.size() && gap(out->second) < min_gap) ++out->second;
+  return out;
+}
+
+std::vector<FrameRange> runs_within(const std::vector<FrameRange>& runs,
+                                    const FrameRange& within) {
+  std::vector<FrameRange> out;
+  for (const FrameRange& run : runs) {
+    if (overlaps(run, within)) out.push_back(run);
+  }
+  return out;
+}
+
+// Displacement of a foot at the edge of a stance, and its change per frame away from the
+// stance. Rotations are vectors in world axes.
+struct FootOffset {
+  glm::dvec3 ankle{0.0};
+  glm::dvec3 foot{0.0};
+  glm::dvec3 toes{0.0};
+};
+
+glm::dvec3 turn_from(const glm::dquat& from, const glm::dquat& to) {
+  return rotation_vector(to * glm::conjugate(from));
+}
+
+FootOffset offset_of(const FootPlace& from, const FootPlace& to) {
+  return {to.ankle_in_world - from.ankle_in_world,
+          turn_from(from.foot, to.foot),
+          turn_from(from.toes, to.toes)};
+}
+
+FootOffset operator-(const FootOffset& a, const FootOffset& b) {
+  return {a.ankle - b.ankle, a.foot - b.foot, a.toes - b.toes};
+}
+
+// One foot over the whole motion: where it is, and where it stands in planted stances.
+struct PlantedWay {
+  const std::vector<FootPlace>& before;
+  const std::vector<FootPlace>& planned;
+  std::vector<std::optional<FootPlace>> out;
+
+  [[nodiscard]] FootOffset offset(int frame) const {
+    const auto t = static_cast<std::size_t>(frame);
+    return offset_of(before[t], planned[t]);
+  }
+  // Adds the offset of a stance's edge to the frames beyond, falling to 0 over `length`
+  // frames: quintics in the offset and its rate, as in retime and splice.
+  void fade(int edge, int step, int length, bool has_rate) {
+    const FootOffset value = offset(edge);
+    const FootOffset rate = has_rate ? value - offset(edge - step) : FootOffset{};
+    for (int k = 1; k < length; ++k) {
+      const int frame = edge + k * step;
+      if (frame < 0 || frame >= static_cast<int>(before.size())) return;
+      const auto t = static_cast<std::size_t>(frame);
+      const double x = static_cast<double>(k) / length;
+      const double x3 = x * x * x;
+      const double x4 = x3 * x;
+      const double x5 = x4 * x;
+      const double keep = 1.0 - 10.0 * x3 + 15.0 * x4 - 6.0 * x5;
+      const double go = length * (x - 6.0 * x3 + 8.0 * x4 - 3.0 * x5);
+      if (!out[t]) out[t] = before[t];
+      FootPlace& place = *out[t];
+      place.ankle_in_world += keep * value.ankle + go * rate.ankle;
+      place.foot = glm::normalize(
+          rotation_from_vector(keep * value.foot + go * rate.foot) * place.foot);
+      place.toes = glm::normalize(
+          rotation_from_vector(keep * value.toes + go * rate.toes) * place.toes);
+    }
+  }
+};
+
+// Places the foot in its planted stances and in the swings round them.
+std::vector<std::optional<FootPlace>> place_stances(
+    const std::vector<FrameRange>& stances,
+    const std::pair<std::size_t, std::size_t>& chosen,
+    int free_fade,
+    PlantedWay way) {
+  way.out.resize(way.before.size());
+  const auto [first, last] = chosen;
+  for (std::size_t k = first; k <= last; ++k) {
+    const FrameRange& run = stances[k];
+    const bool has_rate = run.last > run.first;
+    for (int frame = run.first; frame <= run.last; ++frame) {
+      const auto t = static_cast<std::size_t>(frame);
+      way.out[t] = way.planned[t];
+    }
+    way.fade(
+        run.first, -1, k > 0 ? run.first - stances[k - 1].last : free_fade, has_rate);
+    way.fade(run.last,
+             +1,
+             k + 1 < stances.size() ? stances[k + 1].first - run.last : free_fade,
+             has_rate);
+  }
+  return way.out;
+}
+
+// Returns one foot on its footprints in the stances near the zone.
+std::vector<std::optional<FootPlace>> planted_foot(const EditState& state,
+                                                   int side,
+                                                   const FrameRange& zone,
+                                                   const std::vector<FootPlace>& feet,
+                                                   double rise_m) {
+  const auto foot = static_cast<std::size_t>(side);
+  FootContacts contacts = state.contacts.feet[foot];
+  const std::vector<FrameRange> stances = contacts.stance;
+  const double hz = state.motion.rate.hz;
+  const auto chosen = stances_near(stances, zone, kMinFade_s * hz);
+  if (!chosen) return std::vector<std::optional<FootPlace>>(feet.size());
+  const FrameRange planted{stances[chosen->first].first, stances[chosen->second].last};
+  for (auto* runs :
+       {&contacts.heel, &contacts.ball, &contacts.stance, &contacts.heel_up}) {
+    *runs = runs_within(*runs, planted);
+  }
+  const std::vector<FootPlace> before = foot_places(state, side);
+  std::vector<FootPlace> level = before;
+  for (const FrameRange& run : contacts.stance) {
+    std::copy(
+        feet.begin() + run.first, feet.begin() + run.last + 1, level.begin() + run.first);
+  }
+  for (FootPlace& place : level) place.ankle_in_world.y += rise_m;
+  auto planned = retarget::plan_foot_path(
+      level, contacts, state.map.feet[foot], state.map.leg_length_m, state.motion.rate);
+  for (FootPlace& place : planned) place.ankle_in_world.y -= rise_m;
+  const int free_fade = static_cast<int>(std::ceil(kFreeFade_s * hz));
+  return place_stances(stances, *chosen, free_fade, {before, planned, {}});
+}
+
+FrameRange changed_frames(const PlannedFeet& feet) {
+  FrameRange out{0, -1};
+  for (const auto& path : feet) {
+    for (std::size_t t = 0; t < path.size(); ++t) {
+      if (!path[t]) continue;
+      const int frame = static_cast<int>(t);
+      out = out.last < out.first
+                ? FrameRange{frame, frame}
+                : FrameRange{std::min(out.first, frame), std::max(out.last, frame)};
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+PlantNearReport plant_feet_near(EditState& state,
+                                const FrameRange& zone,
+                                const FootWays& feet) {
+  MAREY_ASSERT(zone.first >= 0 && zone.first <= zone.last &&
+               zone.last < state.frame_count());
+  PlantNearReport report;
+  const double rise_m =
+      retarget::standing_rise_m(state.map, state.contacts, state.map, 1.0);
+  PlannedFeet planned;
+  for (int side = 0; side < 2; ++side) {
+    const auto& way = feet[static_cast<std::size_t>(side)];
+    MAREY_ASSERT(static_cast<int>(way.size()) == state.frame_count());
+    planned[static_cast<std::size_t>(side)] =
+        planted_foot(state, side, zone, way, rise_m);
+  }
+  report.changed = changed_frames(planned);
+  if (report.changed.first <= report.changed.last) {
+    report.plant = set_feet(state, planned);
+  }
+  return report;
+}
+
+PlantNearReport plant_feet_near(EditState& state, const FrameRange& zone) {
+  return plant_feet_near(state, zone, {foot_places(state, 0), foot_places(state, 1)});
+}
+
+}  // namespace marey::edit

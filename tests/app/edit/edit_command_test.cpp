@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// `marey edit`: one recipe, many motions, differences, and refusals.
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/edit/edit_batch.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/motion/npz.h"
+#include "tests/support/program/paths.h"
+#include "tests/support/program/run_program.h"
+#include "tests/support/program/scratch_folder.h"
+#include "tests/support/simulation/synthetic_walk.h"
+
+namespace marey::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// A walk and a recipe for it.
+class EditFolder {
+ public:
+  EditFolder() {
+    EXPECT_TRUE(recordings::write_npz(folder_ / "walk.npz",
+                                      synthetic_walk(360, 120.0, 0.002, 0.0005).motion));
+  }
+
+  void write_recipe(const std::string& operations,
+                    const std::string& source = "path = \"walk.npz\"",
+                    const std::string& name = "a.edit.toml") const {
+    const std::string text =
+        "format = 1\nname = \"a\"\n[source]\n" + source + "\n" + operations;
+    EXPECT_TRUE(recordings::write_file(folder_ / name, text));
+  }
+  [[nodiscard]] ProgramRun run(std::vector<std::string> more = {},
+                               const std::string& recipe = "a.edit.toml") const {
+    std::vector<std::string> arguments{
+        "--progress", "none", "edit", recipe, "--out", "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_program(
+        program(), arguments, {.folder = folder_.path(), .interrupt_at = {}});
+  }
+  [[nodiscard]] ProgramRun call(const std::vector<std::string>& arguments) const {
+    return run_program(
+        program(), arguments, {.folder = folder_.path(), .interrupt_at = {}});
+  }
+  [[nodiscard]] fs::path operator/(const std::string& name) const {
+    return folder_ / name;
+  }
+  [[nodiscard]] std::string bytes(const std::string& name) const {
+    const auto text = recordings::read_file(folder_ / name);
+    return text ? *text : "missing";
+  }
+
+ private:
+  ScratchFolder folder_;
+};
+
+constexpr const char* kLoop =
+    "[[op]]\ndo = \"cut@1\"\nfrom_s = 0.2\n"
+    "[[op]]\ndo = \"filter@1\"\n"
+    "[[op]]\ndo = \"plant@1\"\n"
+    "[[op]]\ndo = \"cyclify@1\"\n"
+    "[[op]]\ndo = \"tag@1\"\ntext = \"locomotion:walk\"\n";
+
+TEST(EditCommand, GivesTheSourceToTheBitWithoutOperations) {
+  const EditFolder folder;
+  folder.write_recipe("");
+  ASSERT_EQ(folder.run().exit_code, 0);
+  const auto source = recordings::read_npz(folder / "walk.npz");
+  const auto result = recordings::read_npz(folder / "out/a.npz");
+  ASSERT_TRUE(source && result);
+  ASSERT_EQ(result->motion.poses.size(), source->motion.poses.size());
+  for (std::size_t t = 0; t < source->motion.poses.size(); ++t) {
+    ASSERT_EQ(result->motion.poses[t].root_in_world,
+              source->motion.poses[t].root_in_world);
+    ASSERT_EQ(result->motion.poses[t].parent_from_joint,
+              source->motion.poses[t].parent_from_joint);
+  }
+}
+
+TEST(EditCommand, WritesTheSameBytesEachTime) {
+  const EditFolder folder;
+  folder.write_recipe(kLoop);
+  const ProgramRun first = folder.run();
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  std::vector<std::string> before;
+  const std::vector<std::string> names{
+      "out/a.npz", "out/a.bvh", "out/a.glb", "out/a.annotations.json", "out/a.edit.json"};
+  for (const std::string& name : names) before.push_back(folder.bytes(name));
+  fs::remove_all(folder / "out");
+  ASSERT_EQ(folder.run().exit_code, 0);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    EXPECT_EQ(folder.bytes(names[i]), before[i]) << names[i];
+    EXPECT_NE(before[i], "missing") << names[i];
+  }
+}
+
+TEST(EditCommand, RecordsTheOriginOfFrames) {
+  const EditFolder folder;
+  folder.write_recipe("[[op]]\ndo = \"cut@1\"\nfrom_frame = 100\nto_frame = 150\n");
+  const ProgramRun run = folder.run({"--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  const Json& result = json.at("results").at(0);
+  EXPECT_EQ(result.at("frames"), 51);
+  EXPECT_EQ(result.at("lineage").at(0).at("source_frames"), Json({100.0, 150.0}));
+  EXPECT_EQ(result.at("lineage").at(0).at("operations"), Json({0}));
+}
+
+TEST(EditCommand, RefusesASourceThatChanged) {
+  const EditFolder folder;
+  folder.write_recipe("");
+  ASSERT_EQ(folder.run({"--pin"}).exit_code, 0);
+  EXPECT_NE(folder.bytes("a.edit.toml").find("sha256"), std::string::npos);
+  ASSERT_EQ(folder.run().exit_code, 0);
+  ASSERT_TRUE(
+      recordings::write_npz(folder / "walk.npz", synthetic_walk(300, 120.0).motion));
+  const ProgramRun run = folder.run();
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("has another content than the recipe was made for"),
+            std::string::npos)
+      << run.err;
+  EXPECT_EQ(folder.run({"--accept-new-source"}).exit_code, 0);
+}
+
+TEST(EditCommand, NamesFileAndLineOfAnOperationThatFails) {
+  const EditFolder folder;
+  folder.write_recipe("[[op]]\ndo = \"cut@1\"\nfrom_s = 2.0\nto_s = 1.0\n");
+  const ProgramRun run = folder.run();
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("a.edit.toml:"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("the span ends before it starts"), std::string::npos) << run.err;
+  EXPECT_FALSE(fs::exists(folder / "out/a.npz"));
+}
+
+TEST(EditCommand, LooksForAMovedSourceBesideTheRecipe) {
+  const EditFolder folder;
+  folder.write_recipe("", "path = \"gone/walk.npz\"");
+  EXPECT_EQ(folder.run().exit_code, 0);
+  folder.write_recipe("", "path = \"gone/run.npz\"");
+  const ProgramRun run = folder.run();
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("does not exist"), std::string::npos) << run.err;
+}
+
+TEST(EditCommand, RefusesRecipesThatAreSourcesOfEachOther) {
+  const EditFolder folder;
+  folder.write_recipe("", "path = \"b.edit.toml\"");
+  folder.write_recipe("", "path = \"a.edit.toml\"", "b.edit.toml");
+  const ProgramRun run = folder.run();
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("is a source of itself"), std::string::npos) << run.err;
+}
+
+TEST(EditCommand, EndsWithFourAboveALimit) {
+  const EditFolder folder;
+  folder.write_recipe("[limits]\nslide_mm = 0.01\n");
+  const ProgramRun run = folder.run();
+  EXPECT_EQ(run.exit_code, 4);
+  EXPECT_NE(run.err.find("the largest drift of a standing foot is"), std::string::npos)
+      << run.err;
+}
+
+TEST(EditCommand, GoesOnAfterABrokenMotionOfMany) {
+  const EditFolder folder;
+  folder.write_recipe("[[op]]\ndo = \"mirror@1\"\n");
+  for (const std::string name : {"one", "three", "two"}) {
+    fs::create_directories(folder / ("takes/" + name));
+    fs::copy_file(folder / "walk.npz", folder / ("takes/" + name + "/motion.npz"));
+  }
+  ASSERT_TRUE(recordings::write_file(folder / "takes/two/motion.npz", "broken"));
+  const ProgramRun run = folder.run({"--each", "takes/*/motion.npz"});
+  EXPECT_EQ(run.exit_code, 4) << run.err;
+  EXPECT_NE(run.err.find("takes/two/motion.npz"), std::string::npos) << run.err;
+  EXPECT_TRUE(fs::exists(folder / "out/one.motion.npz"));
+  EXPECT_TRUE(fs::exists(folder / "out/three.motion.npz"));
+  const std::string table = folder.bytes("out/edit.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4) << table;
+}
+
+TEST(EditCommand, WritesNothingWithCheck) {
+  const EditFolder folder;
+  folder.write_recipe(kLoop);
+  const ProgramRun run =
+      folder.call({"--progress", "none", "edit", "a.edit.toml", "--check"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(EditCommand, ShowsTheOperationsAndMillimetresThatDiffer) {
+  const EditFolder folder;
+  folder.write_recipe("[[op]]\ndo = \"cut@1\"\nfrom_s = 0.5\n");
+  folder.write_recipe(
+      "[[op]]\ndo = \"cut@1\"\nfrom_s = 0.5\n"
+      "[[op]]\ndo = \"place@1\"\nposition_xz_m = [1.0, 0.0]\n",
+      "path = \"walk.npz\"",
+      "b.edit.toml");
+  const ProgramRun run =
+      folder.call({"--progress", "none", "edit", "diff", "a.edit.toml", "b.edit.toml"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("+ [[op]]"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("place@1"), std::string::npos) << run.out;
+  EXPECT_EQ(run.out.find("cut@1"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("largest difference: "), std::string::npos) << run.out;
+}
+
+TEST(EditCommand, MakesARecipeForAMotion) {
+  const EditFolder folder;
+  const ProgramRun run =
+      folder.call({"--progress", "none", "edit", "walk.npz", "--new", "new.edit.toml"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(folder.run({}, "new.edit.toml").exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "out/walk.npz"));
+}
+
+TEST(EditCommand, RefusesAMotionInPlaceOfARecipe) {
+  const EditFolder folder;
+  const ProgramRun run = folder.run({}, "walk.npz");
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("--new RECIPE.edit.toml"), std::string::npos) << run.err;
+}
+
+TEST(NamesOfFiles, AreTheirPathsBelowTheCommonFolder) {
+  const std::vector<fs::path> files{
+      "takes/a/motion.npz", "takes/b/motion.npz", "takes/b/motion.bvh"};
+  const auto names = app::names_of_files(files);
+  EXPECT_EQ(names, (std::vector<std::string>{"a.motion", "b.motion", "b.motion.2"}));
+}
+
+}  // namespace
+}  // namespace marey::testing
