@@ -80,9 +80,7 @@ double largest_way_m(const Skeleton& skeleton,
 }
 
 /// Takes the adapted poses, except where only the adapter's rounding changed them.
-/// Returns the range of the changed frames.
-FrameRange take_adapted(std::vector<Pose> adapted, EditState& state) {
-  FrameRange changed{0, -1};
+void take_adapted(std::vector<Pose> adapted, EditState& state) {
   const Skeleton& skeleton = state.motion.skeleton;
   std::vector<RigidTransform> old_joints(skeleton.joints.size());
   std::vector<RigidTransform> new_joints(skeleton.joints.size());
@@ -95,6 +93,19 @@ FrameRange take_adapted(std::vector<Pose> adapted, EditState& state) {
       continue;
     }
     state.motion.poses[t] = std::move(adapted[t]);
+  }
+}
+
+/// Returns the range of the frames that differ.
+FrameRange changed_frames(const Motion& before, const Motion& after) {
+  FrameRange changed{0, -1};
+  for (int frame = 0; frame < static_cast<int>(after.poses.size()); ++frame) {
+    const Pose& was = before.poses[static_cast<std::size_t>(frame)];
+    const Pose& is = after.poses[static_cast<std::size_t>(frame)];
+    if (was.root_in_world == is.root_in_world &&
+        was.parent_from_joint == is.parent_from_joint) {
+      continue;
+    }
     if (changed.last < changed.first) changed.first = frame;
     changed.last = frame;
   }
@@ -177,22 +188,28 @@ Status adapt_state(EditState& state, OpReport& report) {
   if (const Status ok = retarget::check_constraints(state.constraints, *character); !ok) {
     return ok.error();
   }
+  const Motion before = state.motion;
+  plant_feet(state);
   SplitConstraints split = split_supports(state, *character);
   const std::size_t own_supports = split.supports.size();
   for (retarget::SupportTrack& track : planned_supports(state)) {
     split.supports.push_back(std::move(track));
   }
-  const Motion before = state.motion;
   Motion from_zero = state.motion;
   from_zero.first_frame = 0;  // Times of constraints are since the first pose.
   auto adapted =
       retarget::adapt_motion(from_zero, *character, split.others, split.supports);
-  if (!adapted) return adapted.error();
-  const FrameRange changed = take_adapted(std::move(adapted->motion.poses), state);
+  if (!adapted) {
+    state.motion = before;
+    return adapted.error();
+  }
+  take_adapted(std::move(adapted->motion.poses), state);
   report_adapted(*adapted, own_supports, state.motion.rate.hz, report);
   report.figures.emplace_back("slide_mm", measure_slide(state).worst_drift_mm);
   report.figures.emplace_back(
-      "largest_mm", kToMm * mark_displaced(state, before, changed, report.index));
+      "largest_mm",
+      kToMm * mark_displaced(
+                  state, before, changed_frames(before, state.motion), report.index));
   return Done{};
 }
 

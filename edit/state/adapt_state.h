@@ -14,10 +14,11 @@ namespace marey::edit {
 [[nodiscard]] Result<Character> character_of(const EditState& state);
 
 /// Adapts the motion to the state's constraints (Kulpa 2005, 4;
-/// retarget::adapt_motion()). Supports fade along the moving foot (split_supports()).
-/// Feet without a Support constraint stand where retarget::plan_supports() plans them
-/// from the state's contacts. Contacts and constraints stay as they are. Without
-/// constraints nothing changes.
+/// retarget::adapt_motion()), after its feet are planted (plant_feet()), so that legs
+/// reach the footprints of the contacts. Supports fade along the moving foot
+/// (split_supports()). Feet without a Support constraint stand where
+/// retarget::plan_supports() plans them from the state's contacts. Contacts and
+/// constraints stay as they are. Without constraints nothing changes.
 ///
 /// Frames without an active constraint whose joints would move by less than 0.02 mm (the
 /// adapter's single precision) keep their pose to the bit. The others are touched in the

@@ -3,7 +3,9 @@
 #include "edit/state/support_tracks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -11,6 +13,8 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/pose.h"
+#include "core/transform.h"
+#include "retarget/base/smooth_step.h"
 #include "retarget/constraints/activation.h"
 #include "retarget/constraints/measure_constraint.h"
 
@@ -19,6 +23,8 @@ namespace {
 
 /// A support with this start time is started by retarget::adapt_motion().
 constexpr double kStartedByCaller_s = 1e9;
+/// A rotation that a flat support adds fades in this time before and after it.
+constexpr double kTurnFade_s = 0.15;
 
 /// Returns the frames in which a constraint is fully active, if there are any.
 std::optional<FrameRange> full_frames(const Constraint& constraint,
@@ -51,32 +57,66 @@ FootPath path_of(const retarget::CarriedPoint& point, const Motion& motion) {
   return out;
 }
 
-retarget::SupportTrack track_of(const Constraint& constraint,
-                                const FrameRange& bears,
-                                FootPath path) {
+/// A support, the frames in which it is fully active, and its foot's own path.
+struct PlacedSupport {
+  Constraint constraint;
+  JointIndex joint{};
+  FrameRange bears;
+  FootPath path;
+
+  [[nodiscard]] const Support& goal() const { return std::get<Support>(constraint.goal); }
+  /// Rotation from the foot's own rotation to the required one. [rad]
+  [[nodiscard]] glm::dvec3 turn_at(int frame) const {
+    return rotation_vector(
+        *goal().world_from_t_pose *
+        glm::conjugate(path.world_from_t_pose[static_cast<std::size_t>(frame)]));
+  }
+};
+
+/// Returns the rotation that is added to a foot in each frame: that which a flat support
+/// requires while it bears, with C2 fades before and after it, also while the foot stands
+/// on its heel or ball only.
+std::vector<glm::dquat> added_turns(const std::vector<PlacedSupport>& supports,
+                                    JointIndex joint,
+                                    std::size_t frame_count,
+                                    FrameRate rate) {
+  std::vector<glm::dquat> out(frame_count, glm::dquat(1, 0, 0, 0));
+  const double fade_frames = kTurnFade_s * rate.hz;
+  for (int frame = 0; frame < static_cast<int>(frame_count); ++frame) {
+    glm::dquat& turn = out[static_cast<std::size_t>(frame)];
+    for (const PlacedSupport& support : supports) {
+      if (support.joint != joint || !support.goal().world_from_t_pose) continue;
+      const int edge = std::clamp(frame, support.bears.first, support.bears.last);
+      if (edge == frame) {
+        turn = rotation_from_vector(support.turn_at(frame));
+        break;
+      }
+      const double share =
+          retarget::smooth_step(1.0 - std::abs(frame - edge) / fade_frames);
+      if (share > 0.0) turn = rotation_from_vector(share * support.turn_at(edge)) * turn;
+    }
+  }
+  return out;
+}
+
+retarget::SupportTrack track_of(const PlacedSupport& support,
+                                const std::vector<glm::dquat>& turns) {
   retarget::SupportTrack out;
-  out.constraint = constraint;
+  out.constraint = support.constraint;
   out.constraint.activation.start_s = kStartedByCaller_s;
   out.constraint.activation.stop_s.reset();
+  const FrameRange& bears = support.bears;
   out.bears = {bears};
-  const auto& support = std::get<Support>(constraint.goal);
-  const glm::dvec3 print = *support.footprint_in_world;
-  const FootPath own = path;
-  for (int frame = 0; frame < static_cast<int>(path.p_in_world.size()); ++frame) {
+  const glm::dvec3 print = *support.goal().footprint_in_world;
+  const std::vector<glm::dvec3>& own = support.path.p_in_world;
+  for (int frame = 0; frame < static_cast<int>(own.size()); ++frame) {
     const auto t = static_cast<std::size_t>(frame);
-    const auto edge =
-        static_cast<std::size_t>(std::clamp(frame, bears.first, bears.last));
-    path.p_in_world[t] =
-        edge == t ? print : own.p_in_world[t] + (print - own.p_in_world[edge]);
-    if (!support.world_from_t_pose) continue;
-    path.world_from_t_pose[t] =
-        edge == t ? *support.world_from_t_pose
-                  : glm::normalize(*support.world_from_t_pose *
-                                   glm::conjugate(own.world_from_t_pose[edge]) *
-                                   own.world_from_t_pose[t]);
+    const int edge = std::clamp(frame, bears.first, bears.last);
+    out.p_in_world.push_back(
+        edge == frame ? print : own[t] + (print - own[static_cast<std::size_t>(edge)]));
+    out.world_from_t_pose.push_back(
+        glm::normalize(turns[t] * support.path.world_from_t_pose[t]));
   }
-  out.p_in_world = std::move(path.p_in_world);
-  out.world_from_t_pose = std::move(path.world_from_t_pose);
   // adapt_motion() places it in each frame.
   auto& placed = std::get<Support>(out.constraint.goal);
   placed.footprint_in_world = glm::dvec3(0.0);
@@ -89,6 +129,7 @@ retarget::SupportTrack track_of(const Constraint& constraint,
 SplitConstraints split_supports(const EditState& state, const Character& character) {
   SplitConstraints out;
   out.others.unknown_xml = state.constraints.unknown_xml;
+  std::vector<PlacedSupport> placed;
   for (const Constraint& constraint : state.constraints.constraints) {
     const auto* support = std::get_if<Support>(&constraint.goal);
     const auto bears = support != nullptr && support->footprint_in_world
@@ -99,7 +140,16 @@ SplitConstraints split_supports(const EditState& state, const Character& charact
       continue;
     }
     const auto point = retarget::carried_point(character, constraint.point);
-    out.supports.push_back(track_of(constraint, *bears, path_of(point, state.motion)));
+    placed.push_back({constraint, point.joint, *bears, path_of(point, state.motion)});
+  }
+  std::map<JointIndex, std::vector<glm::dquat>> turns;
+  for (const PlacedSupport& support : placed) {
+    auto [own, is_new] = turns.try_emplace(support.joint);
+    if (is_new) {
+      own->second = added_turns(
+          placed, support.joint, state.motion.poses.size(), state.motion.rate);
+    }
+    out.supports.push_back(track_of(support, own->second));
   }
   // The first of several supports of one foot is met exactly, and those on heel or ball
   // hold while the flat foot fades next to them (retarget::plan_supports()).
