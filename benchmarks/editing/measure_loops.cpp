@@ -75,7 +75,7 @@ ResultTable row_table(const std::vector<LoopRow>& rows) {
                           r.all_ms});
   }
   table.notes = {
-      "period s: of the loop; strikes s: mean of both feet's time between strikes, "
+      "period s: the loop's; strikes s: mean of both feet's time between strikes, "
       "around "
       "the middle of the loop",
       "gap, worst: joints at the ends of the cycle, weighted rms and largest, before "
@@ -83,7 +83,7 @@ ResultTable row_table(const std::vector<LoopRow>& rows) {
       "all "
       "pairs of frames",
       "a: largest acceleration of a joint in m/s^2 at the seam, as cut and after; p95: "
-      "of all other frames",
+      "the other frames' 95th percentile",
       "jump: velocity before the seam against after it, by cubics through 4 frames on "
       "either side; p95: the same at all other frames",
       "slide, looped: mean speed of bearing joints before and after; drift: copies "

@@ -71,9 +71,9 @@ struct LoopPeriods {
                                          int last,
                                          const MatchOptions& options = {});
 
-/// Distances of all pairs of frames, for a picture. Cell (row, column) holds the smallest
-/// distance of the pairs whose first frame is among cell_frames from row * cell_frames
-/// on, and whose last frame likewise of the column.
+/// Distances of all pairs of frames, for a picture. A cell has the smallest distance of
+/// its pairs. Its row is the first frame over cell_frames, its column the last frame over
+/// cell_frames, both rounded down.
 struct LoopMap {
   int cells = 0;
   int cell_frames = 1;            ///< Frames of the motion per cell.

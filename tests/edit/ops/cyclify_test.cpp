@@ -173,8 +173,8 @@ TEST(Cyclify, PlantsTheFeetOfTenCycles) {
 }
 
 TEST(Cyclify, JoinsAMotionThatGrows) {
-  // As cut, places jump, by more than 1 m/s at any rate. Of a smooth loop the estimate of
-  // the jump is the error of the cubics, which falls with the rate.
+  // As cut, velocities jump by more than 1 m/s at any rate. In a smooth loop the measured
+  // jump is the error of the cubics, which falls with the rate.
   std::vector<double> jumps;
   for (const double hz : {120.0, 480.0}) {
     VariedWalkOptions options;
@@ -206,7 +206,7 @@ TEST(Cyclify, AcceleratesAtTheSeamAsInside) {
       ++above;
     }
   }
-  // Of two frames chosen at random, one is above the 95th percentile in 10 % of cases.
+  // Two frames chosen at random exceed the 95th percentile in 10 % of cases.
   EXPECT_LE(above, kSeeds / 5);
 }
 
