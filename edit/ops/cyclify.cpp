@@ -14,6 +14,7 @@
 
 #include "edit/find/find_loops.h"
 #include "edit/ops/close_cycle.h"
+#include "edit/ops/seam_acceleration.h"
 #include "edit/state/check_op_keys.h"
 #include "edit/state/resample_state.h"
 #include "edit/state/resolve_moment.h"

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "edit/find/find_splice.h"
-#include "edit/ops/bridge_stances.h"
-#include "edit/ops/choose_splice.h"
-#include "edit/ops/splice_carry.h"
-#include "edit/ops/splice_overlap.h"
-#include "edit/ops/splice_poses.h"
-#include "edit/ops/splice_source.h"
+#include "edit/splice/bridge_stances.h"
+#include "edit/splice/choose_splice.h"
+#include "edit/splice/splice_carry.h"
+#include "edit/splice/splice_overlap.h"
+#include "edit/splice/splice_poses.h"
+#include "edit/splice/splice_source.h"
 #include "edit/state/check_op_keys.h"
 #include "edit/state/move_state.h"
 #include "edit/state/plant_near.h"

@@ -14,6 +14,7 @@
 
 #include "core/base/assert.h"
 #include "core/transform.h"
+#include "retarget/base/smooth_step.h"
 #include "retarget/feet/adapt_to_ground.h"
 #include "retarget/feet/plan_foot_path.h"
 
@@ -28,6 +29,9 @@ using PlannedFeet = std::array<std::vector<std::optional<FootPlace>>, 2>;
 constexpr double kMinFade_s = 0.15;
 // Fade of a foot that does not stand again. [s]
 constexpr double kFreeFade_s = 0.4;
+// Time over which the change of a displacement is fitted, and over which it fades. [s]
+constexpr double kRateFit_s = 0.05;
+constexpr double kRateFade_s = 0.15;
 
 bool overlaps(const FrameRange& a, const FrameRange& b) {
   return a.first <= b.last && b.first <= a.last;
@@ -77,10 +81,6 @@ FootOffset offset_of(const FootPlace& from, const FootPlace& to) {
           turn_from(from.toes, to.toes)};
 }
 
-FootOffset operator-(const FootOffset& a, const FootOffset& b) {
-  return {a.ankle - b.ankle, a.foot - b.foot, a.toes - b.toes};
-}
-
 // One foot over the whole motion: where it is, and where it stands in planted stances.
 struct PlantedWay {
   const std::vector<FootPlace>& before;
@@ -91,28 +91,45 @@ struct PlantedWay {
     const auto t = static_cast<std::size_t>(frame);
     return offset_of(before[t], planned[t]);
   }
+  // Returns the change of the offset per frame at the end of `count` frames that lead to
+  // the edge, by a line fit.
+  [[nodiscard]] FootOffset rate(int edge, int step, int count) const {
+    FootOffset sum;
+    double square = 0.0;
+    for (int k = 0; k < count; ++k) {
+      const double x = 0.5 * (count - 1) - k;
+      const FootOffset at = offset(edge - k * step);
+      sum = {sum.ankle + x * at.ankle, sum.foot + x * at.foot, sum.toes + x * at.toes};
+      square += x * x;
+    }
+    if (square == 0.0) return {};
+    return {sum.ankle / square, sum.foot / square, sum.toes / square};
+  }
   // Adds the offset of a stance's edge to the frames beyond, falling to 0 over `length`
-  // frames: quintics in the offset and its rate, as in retime and splice.
-  void fade(int edge, int step, int length, bool has_rate) {
+  // frames: quintics in the offset and its rate. The rate has less time: noise of it
+  // would lead far away.
+  void fade(const FrameRange& stance, int step, int length, double hz) {
+    const int edge = step < 0 ? stance.first : stance.last;
     const FootOffset value = offset(edge);
-    const FootOffset rate = has_rate ? value - offset(edge - step) : FootOffset{};
+    const int fitted = std::max(2, static_cast<int>(std::lround(kRateFit_s * hz)));
+    const FootOffset change =
+        rate(edge, step, std::min(fitted, stance.last - stance.first + 1));
+    const double rate_length = std::min(1.0 * length, kRateFade_s * hz);
     for (int k = 1; k < length; ++k) {
       const int frame = edge + k * step;
       if (frame < 0 || frame >= static_cast<int>(before.size())) return;
       const auto t = static_cast<std::size_t>(frame);
-      const double x = static_cast<double>(k) / length;
+      const double keep = 1.0 - retarget::smooth_step(static_cast<double>(k) / length);
+      const double x = std::min(1.0, k / rate_length);
       const double x3 = x * x * x;
-      const double x4 = x3 * x;
-      const double x5 = x4 * x;
-      const double keep = 1.0 - 10.0 * x3 + 15.0 * x4 - 6.0 * x5;
-      const double go = length * (x - 6.0 * x3 + 8.0 * x4 - 3.0 * x5);
+      const double go = rate_length * (x - 6.0 * x3 + 8.0 * x3 * x - 3.0 * x3 * x * x);
       if (!out[t]) out[t] = before[t];
       FootPlace& place = *out[t];
-      place.ankle_in_world += keep * value.ankle + go * rate.ankle;
+      place.ankle_in_world += keep * value.ankle + go * change.ankle;
       place.foot = glm::normalize(
-          rotation_from_vector(keep * value.foot + go * rate.foot) * place.foot);
+          rotation_from_vector(keep * value.foot + go * change.foot) * place.foot);
       place.toes = glm::normalize(
-          rotation_from_vector(keep * value.toes + go * rate.toes) * place.toes);
+          rotation_from_vector(keep * value.toes + go * change.toes) * place.toes);
     }
   }
 };
@@ -121,23 +138,22 @@ struct PlantedWay {
 std::vector<std::optional<FootPlace>> place_stances(
     const std::vector<FrameRange>& stances,
     const std::pair<std::size_t, std::size_t>& chosen,
-    int free_fade,
+    double hz,
     PlantedWay way) {
+  const int free_fade = static_cast<int>(std::ceil(kFreeFade_s * hz));
   way.out.resize(way.before.size());
   const auto [first, last] = chosen;
   for (std::size_t k = first; k <= last; ++k) {
     const FrameRange& run = stances[k];
-    const bool has_rate = run.last > run.first;
     for (int frame = run.first; frame <= run.last; ++frame) {
       const auto t = static_cast<std::size_t>(frame);
       way.out[t] = way.planned[t];
     }
-    way.fade(
-        run.first, -1, k > 0 ? run.first - stances[k - 1].last : free_fade, has_rate);
-    way.fade(run.last,
+    way.fade(run, -1, k > 0 ? run.first - stances[k - 1].last : free_fade, hz);
+    way.fade(run,
              +1,
              k + 1 < stances.size() ? stances[k + 1].first - run.last : free_fade,
-             has_rate);
+             hz);
   }
   return way.out;
 }
@@ -169,8 +185,7 @@ std::vector<std::optional<FootPlace>> planted_foot(const EditState& state,
   auto planned = retarget::plan_foot_path(
       level, contacts, state.map.feet[foot], state.map.leg_length_m, state.motion.rate);
   for (FootPlace& place : planned) place.ankle_in_world.y -= rise_m;
-  const int free_fade = static_cast<int>(std::ceil(kFreeFade_s * hz));
-  return place_stances(stances, *chosen, free_fade, {before, planned, {}});
+  return place_stances(stances, *chosen, hz, {before, planned, {}});
 }
 
 FrameRange changed_frames(const PlannedFeet& feet) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/ops/bridge_stances.h"
+#include "edit/splice/bridge_stances.h"
 
 #include <algorithm>
 #include <array>

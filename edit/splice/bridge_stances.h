@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "edit/ops/splice_carry.h"
+#include "edit/splice/splice_carry.h"
 #include "edit/state/edit_state.h"
 #include "edit/state/plant_near.h"
 
