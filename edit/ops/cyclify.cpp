@@ -31,7 +31,7 @@ constexpr double kMaxGap_legs = 0.15;
 constexpr double kMaxJointGap_legs = 0.35;
 constexpr double kNearlyAsGood = 1.1;
 constexpr int kMaxCycles = 1000;
-constexpr double kDegrees = 57.295779513082320877;
+constexpr double kCycleDegrees = 57.295779513082320877;
 
 Error bad_cyclify(std::string cause, std::string next) {
   return bad_input("motion", std::move(cause), std::move(next));
@@ -274,7 +274,7 @@ void report_cycle(const ChosenCycle& chosen,
   figure("gap_rms_mm", 1e3 * match.rms_m);
   figure("gap_worst_mm", 1e3 * match.worst_m);
   figure("velocity_gap_m_per_s", match.rms_velocity_m_per_s);
-  figure("turn_deg", kDegrees * travel.turn_rad);
+  figure("turn_deg", kCycleDegrees * travel.turn_rad);
   figure("travel_m", closed.travel_m);
   figure("seam_acceleration_m_per_s2", seam.seam);
   figure("inside_acceleration_p95_m_per_s2", seam.inside);
