@@ -41,7 +41,6 @@
 #include "benchmarks/editing/splice_figures.h"
 #include "benchmarks/parts/captured_clips.h"
 #include "benchmarks/parts/result_table.h"
-#include "core/base/format_text.h"
 #include "retarget/contacts/frame_marks.h"
 #include "retarget/contacts/measure_contacts.h"
 
@@ -112,10 +111,6 @@ struct Measured {
   double slow_slide = 0.0;    ///< [cm/s], second label
   double clip_slide = 0.0;    ///< [cm/s], second label, the clips' own
   double acceleration = 0.0;  ///< Over the clips'.
-  Peak fastest;
-  Peak hardest;
-  int join = 0;
-  double hz = 0.0;
   std::string cause;
 };
 
@@ -159,29 +154,21 @@ Measured measure(const Joined& joined, const PairOfClips& pair) {
   const Slide slide =
       slide_of(joined, pair.a.map, {&pair.labels[0].contacts, &pair.labels[1].contacts});
   out.slide = slide.cm_per_s(hz);
-  out.worst = 100.0 * slide.worst.value * hz;
-  out.fastest = slide.worst;
-  out.join = joined.join;
-  out.hz = hz;
+  out.worst = 100.0 * slide.worst_m * hz;
   out.slow_slide =
       slide_of(joined, pair.a.map, {&pair.labels[0].slow, &pair.labels[1].slow})
           .cm_per_s(hz);
   out.clip_slide = own_slow_slide(joined, pair);
-  out.hardest = peak_acceleration(joined.motion, joined.join - near, joined.join + near);
-  out.acceleration = out.hardest.value / pair.peak;
+  out.acceleration =
+      peak_acceleration(joined.motion, joined.join - near, joined.join + near) /
+      pair.peak;
   return out;
 }
 
 std::string cause_of(const Measured& m, const edit::OpReport& report) {
   std::string out;
-  const auto place = [&](const char* what, const Peak& peak) {
-    return format_text("%s of %s %.2f s from the join; ",
-                       what,
-                       peak.joint.c_str(),
-                       (peak.frame - m.join) / m.hz);
-  };
-  if (m.slide > kSlideBar_cm_per_s) out += place("slide", m.fastest);
-  if (m.acceleration > kAccelerationBar) out += place("acceleration", m.hardest);
+  if (m.slide > kSlideBar_cm_per_s) out += "slide ";
+  if (m.acceleration > kAccelerationBar) out += "acceleration ";
   if (out.empty()) return out;
   for (const Finding& finding : report.findings) {
     if (finding.id != "candidates") out += "[" + finding.id + "] ";
@@ -315,9 +302,8 @@ int run(const std::filesystem::path& mocap, bool has_pairs) {
       if (!second) continue;
       PairOfClips pair{a.name + " - " + b.name, a.state, *second, {}, 0.0};
       pair.labels = {labels_of(pair.a), labels_of(pair.b)};
-      pair.peak =
-          std::max(peak_acceleration(pair.a.motion, 0, pair.a.frame_count()).value,
-                   peak_acceleration(pair.b.motion, 0, pair.b.frame_count()).value);
+      pair.peak = std::max(peak_acceleration(pair.a.motion, 0, pair.a.frame_count()),
+                           peak_acceleration(pair.b.motion, 0, pair.b.frame_count()));
       measure_pair(pair, random, results);
     }
   }

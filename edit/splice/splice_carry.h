@@ -24,10 +24,9 @@ struct JoinFrames {
 /// one. Constraints of the same id and goal become one, too. Another constraint whose id
 /// is taken gets a new one. Constraints that are active across the join fade over the
 /// overlap. Curves are mixed by the weights; a motion without a curve counts as 0.
-/// Uncertainty is dropped, with a finding, if one of the motions has none. Contacts
-/// shorter than 0.06 s that the join cuts are dropped, and gaps shorter than 0.05 s
-/// closed. Precondition: same skeleton and rate; `start` <= `join`; the first motion has
-/// at least the frames up to `join`.
+/// Uncertainty is dropped, with a finding, if one of the motions has none. Contacts:
+/// join_contacts(). Precondition: same skeleton and rate; `start` <= `join`; the first
+/// motion has at least the frames up to `join`.
 [[nodiscard]] EditState join_states(const EditState& first,
                                     const EditState& second,
                                     const JoinFrames& frames,

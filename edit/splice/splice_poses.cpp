@@ -108,6 +108,7 @@ struct JoinPoses {
   const Pose& before_a;
   const Pose& b;
   const Pose& after_b;
+  double hz = 0.0;
   double share_a = 0.5;  // Part of the gap that the first side takes.
 };
 
