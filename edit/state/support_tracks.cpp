@@ -73,8 +73,8 @@ struct PlacedSupport {
   }
 };
 
-/// Returns the rotation that is added to a foot in each frame: that which a flat support
-/// requires while it bears, with C2 fades before and after it, also while the foot stands
+/// Returns the rotation that is added to a foot in each frame: the rotation of a flat
+/// support while it bears, with C2 fades before and after it, also while the foot stands
 /// on its heel or ball only.
 std::vector<glm::dquat> added_turns(const std::vector<PlacedSupport>& supports,
                                     JointIndex joint,
