@@ -207,7 +207,7 @@ Status adapt_state(EditState& state, OpReport& report) {
   report_adapted(*adapted, own_supports, state.motion.rate.hz, report);
   report.figures.emplace_back("slide_mm", measure_slide(state).worst_drift_mm);
   report.figures.emplace_back(
-      "largest_mm",
+      "displaced_mm",
       kToMm * mark_displaced(
                   state, before, changed_frames(before, state.motion), report.index));
   return Done{};

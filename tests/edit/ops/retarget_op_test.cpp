@@ -81,7 +81,7 @@ TEST(RetargetOp, FootprintsAreThoseOfTheAvatarAndSigmasAreScaled) {
   const auto adapted = now.run(apply_constrain, *out);
   ASSERT_TRUE(adapted) << adapted.error().message();
   EXPECT_EQ(now.figure("unmet"), 0.0);
-  EXPECT_LT(now.figure("largest_mm"), 0.1);
+  EXPECT_LT(now.figure("displaced_mm"), 0.1);
 }
 
 TEST(RetargetOp, AnAvatarThatWasNotReadIsRefusedWithTheNearestName) {
