@@ -61,8 +61,8 @@ class EditWorker {
   /// Stops after the running operation; waiting tasks are dropped.
   ~EditWorker();
 
-  /// Renders a revision instead of those that wait or run; a running one stops between
-  /// two operations.
+  /// Renders a revision. It replaces a waiting one; a running one stops between two
+  /// operations.
   void render(int revision, const EditRecipe& recipe);
   /// Adds a task. A preview replaces a waiting one of the same page. Other pages' tasks
   /// and exports are kept; at most kMaxTasks wait, and further ones fail.
@@ -90,7 +90,8 @@ class EditWorker {
 
   // The worker's own.
   EditFiles files_;
-  std::vector<EditSource> sources_;  ///< Of the recipe that files_ were read for.
+  std::vector<EditSource>
+      sources_;  ///< Sources of the recipe for which files_ were read.
   const ReadEditOptions read_;
   const EditOutput output_;
   EditListener& listener_;
