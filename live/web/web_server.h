@@ -23,7 +23,7 @@ enum class PageMessage {
   kStatus,
   kWizard,
   kConstraints,
-  // Of the page of marey edit.
+  // Messages of the page of marey edit.
   kRevision,
   kProgress,
   kRendered,

@@ -47,7 +47,7 @@ class WebState {
   /// Stores an answer for one page, replacing an unsent one. No effect if that page is
   /// closed.
   void answer(ClientId client, bool is_binary, std::string_view message);
-  /// Adds a text for one page to those that wait, in order. If kMaxQueued wait, the
+  /// Appends a text to the queue of one page. If kMaxQueued wait, the
   /// oldest is dropped. No effect if that page is closed.
   void queue(ClientId client, std::string_view message);
   /// Copies the page's next message into `out`; returns false if there is none. The scene
