@@ -145,8 +145,8 @@ void report_constraint(const retarget::KeptConstraint& kept,
           .measured(error, std::nullopt, unit));
 }
 
-/// Reports the constraints, and of the supports the first `own_supports`; of the planned
-/// ones those that are not met.
+/// Reports all constraints, the first `own_supports` supports, and unmet planned
+/// supports.
 void report_adapted(const retarget::AdaptedMotion& adapted,
                     std::size_t own_supports,
                     double rate_hz,
