@@ -138,7 +138,11 @@ Result<std::vector<EditState>> apply_op(const OpContext& context,
   auto made = std::visit(OpApplier{context, state, report}, context.op.parameters);
   if (made) return made;
   Error error = made.error();
-  if (error.where != report.name) error.where = report.name + ": " + error.where;
+  if (error.where.empty() || error.where == op_name) {
+    error.where = report.name;
+  } else if (error.where != report.name) {
+    error.where = report.name + ": " + error.where;
+  }
   return error;
 }
 

@@ -15,7 +15,7 @@
 
 namespace marey::app {
 
-/// What made a revision.
+/// Origin of a revision.
 enum class EditCause { kOpen, kEdit, kUndo, kRedo, kFile };
 /// Returns the word in the journal: "open".
 [[nodiscard]] std::string_view name(EditCause cause);
@@ -25,7 +25,7 @@ struct EditRevision {
   int number = 1;
   int parent = 0;  ///< 0: none.
   EditCause cause = EditCause::kOpen;
-  std::string sha256;  ///< Of the recipe's text.
+  std::string sha256;  ///< SHA-256 of the recipe's text.
   std::string time;    ///< "2025-03-01T12:00:00Z".
 };
 

@@ -44,13 +44,13 @@ struct RenderedMessage {
   std::vector<EditBlock> blocks;
 };
 
-/// How a result is sent.
+/// Form in which a result is sent.
 struct RenderedForm {
   int scene = 1;             ///< Number of the scene that it belongs to.
   std::string block_path{};  ///< "/media/edit/7.": the index of the output follows.
   PreviewParts parts{};
   std::string own_scene{};           ///< Scene of a preview of another body; else empty.
-  const EditAsker* asker = nullptr;  ///< Of a preview; nullptr: for all pages.
+  const EditAsker* asker = nullptr;  ///< Page of a preview; nullptr: all pages.
 };
 
 /// Encodes a result. Outputs that were not asked for are left out. Linear in frames times

@@ -23,7 +23,7 @@ namespace marey::app {
     const std::vector<Finding>& findings);
 [[nodiscard]] nlohmann::ordered_json op_report_json(const edit::OpReport& report);
 
-/// One output and what is sent of it.
+/// One output and the parts of it that are sent.
 struct SentOutput {
   const edit::EditState& state;
   std::string name;

@@ -93,8 +93,8 @@ void EditPagePublisher::serve(std::vector<EditBlock> blocks,
   served.pop_front();
 }
 
-/// Returns the previews of a page. Those of the oldest page are removed if there are too
-/// many pages.
+/// Returns the previews of a page. The messages of the oldest page are removed if there
+/// are too many pages.
 std::deque<EditPagePublisher::Paths>& EditPagePublisher::previews_of(std::uint64_t page) {
   std::deque<Paths>& out = previews_[page];
   if (previews_.size() > kMaxPreviewPages) {

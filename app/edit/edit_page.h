@@ -24,7 +24,7 @@ namespace marey::app {
 struct EditPageArguments {
   std::filesystem::path what;         ///< A recipe (.toml), or a motion of a new one.
   std::filesystem::path out;          ///< Folder of exports; empty: there are none.
-  std::vector<MotionFormat> formats;  ///< Of exports; empty: as EditOutput.
+  std::vector<MotionFormat> formats;  ///< Formats of exports; empty: as in EditOutput.
   bool accept_new_source = false;
   PageServerOptions page;
   std::optional<double> seconds;  ///< nullopt: until Ctrl-C.
@@ -53,7 +53,7 @@ class EditPagePublisher : public EditListener {
   void on_failed(const EditAsker& asker, const Error& error) override;
 
  private:
-  using Paths = std::vector<std::string>;  ///< Of one message's blocks.
+  using Paths = std::vector<std::string>;  ///< Size of the blocks of one message.
 
   [[nodiscard]] RenderedForm next_form();
   void serve(std::vector<EditBlock> blocks, std::size_t kept, std::deque<Paths>& served);

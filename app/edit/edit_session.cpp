@@ -163,7 +163,7 @@ std::optional<EditOutcome> EditSession::check_base(int base_revision) const {
 EditOutcome EditSession::adopt(EditRecipe recipe, const Status& stored) {
   if (!stored) return stored.error();
   recipe_ = std::move(recipe);
-  avatars_.merge(avatars_of(recipe_));  // Of recipes in the journal.
+  avatars_.merge(avatars_of(recipe_));  // Largest size of recipes in the journal.
   listener_.on_revision(*this);
   worker_.render(revision().number, recipe_);
   const Status written = recordings::write_file(recipe_file_, recipe_text());

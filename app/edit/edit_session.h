@@ -25,7 +25,7 @@ struct EditSessionOptions {
   /// journal NAME.edit.journal is next to it.
   std::filesystem::path recipe_file;
   std::filesystem::path source;  ///< Motion of a new recipe.
-  EditOutput output;             ///< Where and how an export writes.
+  EditOutput output;             ///< Folder and formats of an export.
   bool accept_new_sources = false;
 };
 

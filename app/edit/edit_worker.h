@@ -61,7 +61,7 @@ class EditWorker {
   /// Stops after the running operation; waiting tasks are dropped.
   ~EditWorker();
 
-  /// Renders a revision instead of those that wait or run; a running one stops between
+  /// Renders a revision and drops waiting ones; a running one stops between
   /// two operations.
   void render(int revision, const EditRecipe& recipe);
   /// Adds a task. A preview replaces a waiting one of the same page. Other pages' tasks
@@ -90,7 +90,7 @@ class EditWorker {
 
   // The worker's own.
   EditFiles files_;
-  std::vector<EditSource> sources_;  ///< Of the recipe that files_ were read for.
+  std::vector<EditSource> sources_;  ///< Key of the recipe that files_ belong to.
   const ReadEditOptions read_;
   const EditOutput output_;
   EditListener& listener_;

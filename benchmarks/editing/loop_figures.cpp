@@ -12,6 +12,7 @@
 
 #include "edit/find/find_loops.h"
 #include "edit/ops/close_cycle.h"
+#include "edit/ops/seam_acceleration.h"
 #include "edit/ops/cyclify.h"
 #include "edit/state/plant_feet.h"
 #include "edit/state/resample_state.h"

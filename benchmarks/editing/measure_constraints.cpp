@@ -9,7 +9,7 @@
 // Reads CMU's and Bandai Namco's clips, cuts them into pieces, and applies to each: the
 // detection of supports and touches, the adaptation to them, and the adaptation to one
 // more constraint that moves the right hand by 15 cm for half a second. Prints per clip:
-// constraints found, unmet constraints after adaptation, the
+// constraints found, contradictions, constraints not met after adaptation, the
 // largest error, the drift of feet before and after, the largest displacement and the
 // largest acceleration that adaptation adds. Then counts errors and findings by cause.
 #include <algorithm>

@@ -75,14 +75,14 @@ ResultTable row_table(const std::vector<LoopRow>& rows) {
                           r.all_ms});
   }
   table.notes = {
-      "period s: of the loop; strikes s: mean of both feet's time between strikes, "
+      "period s: length of the loop; strikes s: mean of both feet's time between strikes, "
       "around "
       "the middle of the loop",
       "gap, worst: joints at the ends of the cycle, weighted rms and largest, before "
       "correction; dv: rms of velocities; plain: all joints alike; median: the same, of "
       "all "
       "pairs of frames",
-      "a: largest acceleration of a joint in m/s^2 at the seam, as cut and after; p95: "
+      "acceleration a, m/s^2: largest of a joint at the seam, as cut and after; p95: "
       "of all other frames",
       "jump: velocity before the seam against after it, by cubics through 4 frames on "
       "either side; p95: the same at all other frames",

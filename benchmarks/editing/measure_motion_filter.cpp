@@ -8,7 +8,7 @@
 // Motions: walk, run, jump and dances, as they are and with planted feet. Prints the
 // largest displacement of bearing joints in contacts, the largest drift of a foot within
 // a contact before and after, and the peaks of impacts: the largest vertical acceleration
-// of the ankle within 50 ms of each impact, after over before (median, smallest). Then
+// of the ankle within 25 ms of each impact, after over before (median, smallest). Then
 // adds white noise (0.004 rad per joint and axis, 2 mm for the root; seeds 1 to 5) and
 // prints the root mean square distance of all joints from the motion without it: noisy,
 // filtered by splines, and by Butterworth filters at 6 Hz and by Winter's rule.
@@ -78,7 +78,7 @@ double moved_in_contacts_mm(const EditState& before, const EditState& after) {
 }
 
 double peak_near(const std::vector<glm::dvec3>& way, int frame, double hz) {
-  const int reach = static_cast<int>(std::lround(0.05 * hz));
+  const int reach = static_cast<int>(std::lround(0.025 * hz));
   double peak = 0.0;
   for (int t = std::max(frame - reach, 1);
        t <= std::min(frame + reach, static_cast<int>(way.size()) - 2);

@@ -18,12 +18,12 @@ namespace marey::edit {
 /// impact the result goes over to the unfiltered channel, which it equals at the impact.
 class ChannelFilter {
  public:
-  /// Chooses the filter for a group. The channels are used for the choice only; those
-  /// that are constant (within 1e-9) do not count. `weights` is empty or has one entry
-  /// per sample; a Butterworth filter does not use it. `impacts` ascend. Spline: the
-  /// penalty is the median over pieces of at least 20 samples, by length; of the whole
-  /// channels if there is none. Precondition: all channels have the same number of
-  /// samples, at least 20; order and cut-off of `op` are valid.
+  /// Chooses the filter for a group. The channels are used for the choice only; a
+  /// constant channel (within 1e-9) does not count. `weights` is empty or has one entry
+  /// per sample; a Butterworth filter does not use it. `impacts` ascend. The penalty of a
+  /// spline is the median over pieces of at least 20 samples, by length; without such a
+  /// piece the whole channels are used. Precondition: all channels have the same number
+  /// of samples, at least 20; order and cut-off of `op` are valid.
   ChannelFilter(const FilterOp& op,
                 std::span<const std::vector<double>> channels,
                 std::span<const double> weights,

@@ -132,7 +132,7 @@ std::vector<FrameRange> to_impacts(std::vector<FrameRange> runs,
 struct StoodFoot {
   HeldShift ankle;                              ///< In contacts of the heel. World.
   HeldShift ball;                               ///< In contacts of the ball. World.
-  std::vector<std::optional<glm::dquat>> foot;  ///< Of a flat foot.
+  std::vector<std::optional<glm::dquat>> foot;  ///< Only while the foot is flat.
   std::vector<std::optional<glm::dquat>> toes;  ///< In contacts of the ball.
   std::vector<FrameRange> flat;
 };
@@ -192,8 +192,8 @@ StoodFoot stood_foot(std::span<const FootPlace> before,
   for (const FrameRange& run : out.flat) {
     turns.push_back(turns_in_run(before, &FootPlace::foot, run));
   }
-  constexpr double kMinNoise_m = 2e-5;
-  constexpr double kMinNoise_rad = 1e-4;
+  constexpr double kMinNoise_m = 1e-4;
+  constexpr double kMinNoise_rad = 5e-4;
   smooth_runs(places, kMinNoise_m, hz);
   smooth_runs(turns, kMinNoise_rad, hz);
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -216,7 +216,7 @@ StoodFoot stood_foot(std::span<const FootPlace> before,
   return out;
 }
 
-/// Returns the turns from filtered rotations to those that are held.
+/// Returns the turns from filtered to held rotations.
 std::vector<glm::dvec3> held_turns(std::span<const FootPlace> before,
                                    std::span<const FootPlace> after,
                                    glm::dquat FootPlace::*part,

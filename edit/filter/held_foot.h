@@ -21,9 +21,9 @@ using HeldFoot = std::vector<std::optional<retarget::FootPlace>>;
 /// rotations of a flat foot and of toes on the floor are those before the filter,
 /// smoothed within each contact apart (smooth_runs.h): a foot that stands still stays to
 /// rounding, and the swing has no effect on it. Within 25 ms of an impact the foot goes
-/// over to its unfiltered path. Between contacts the foot is displaced by what it was
-/// displaced there, which fades within 0.1 s with continuous speed. `before` and `after`
-/// hold the foot in each frame. Linear in frames.
+/// over to its unfiltered path. Between
+/// contacts the displacement fades within 0.1 s with continuous speed. `before` and
+/// `after` hold the foot in each frame. Linear in frames.
 [[nodiscard]] HeldFoot held_foot(std::span<const retarget::FootPlace> before,
                                  std::span<const retarget::FootPlace> after,
                                  const retarget::FootContacts& contacts,

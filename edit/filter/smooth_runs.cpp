@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <utility>
+#include <optional>
 
 #include "edit/signal/choose_smoothing.h"
 #include "edit/signal/smoothing_spline.h"
@@ -47,53 +47,48 @@ bool is_noisy(const VectorRun& run, double min_noise) {
   return run.values.size() >= kMinFrames && noise_of(run) >= min_noise;
 }
 
-struct RunPenalty {
-  double penalty = 0.0;
+/// Returns the penalty that suits all runs together; nullopt: they have too few frames.
+std::optional<double> shared_penalty(std::span<const VectorRun> runs,
+                                     double min_noise,
+                                     double hz) {
+  constexpr std::size_t kMinRun = 8;
+  std::vector<RunChannels> kept;
   std::size_t frames = 0;
-};
-
-/// Returns the median of the penalties that suit the long runs.
-double shared_penalty(std::span<const VectorRun> runs, double min_noise, double hz) {
-  std::vector<RunPenalty> found;
-  std::size_t total = 0;
   for (const VectorRun& run : runs) {
-    if (run.values.size() < kMinSmoothingSamples || !is_noisy(run, min_noise)) continue;
-    std::vector<std::vector<double>> varying;
-    for (auto& channel : channels_of(run)) {
+    if (run.values.size() < kMinRun || !is_noisy(run, min_noise)) continue;
+    kept.push_back(channels_of(run));
+    frames += run.values.size();
+  }
+  if (frames < kMinSmoothingSamples) return std::nullopt;
+  SmoothingChannels channels;
+  for (const RunChannels& run : kept) {
+    channels.splines.emplace_back(run[0].size());
+    for (const auto& channel : run) {
       constexpr double kConstant = 1e-9;
       const auto [low, high] = std::minmax_element(channel.begin(), channel.end());
-      if (*high - *low > kConstant) varying.push_back(channel);
+      if (*high - *low <= kConstant) continue;
+      channels.samples.emplace_back(channel);
+      channels.spline_of.push_back(channels.splines.size() - 1);
     }
-    if (varying.empty()) continue;
-    std::vector<std::size_t> all;
-    for (std::size_t i = 0; i < varying.size(); ++i) all.push_back(i);
-    const std::vector<std::vector<std::size_t>> groups{all};
-    const auto penalty = smooth_groups(varying, groups, hz).groups[0].penalty;
-    if (!penalty) continue;
-    found.push_back({*penalty, run.values.size()});
-    total += run.values.size();
   }
-  constexpr double kCutoff_hz = 6.0;
-  if (found.empty()) return penalty_of_half_power(kCutoff_hz, hz, {});
-  std::sort(found.begin(), found.end(), [](const RunPenalty& a, const RunPenalty& b) {
-    return a.penalty < b.penalty;
-  });
-  std::size_t sum = 0;
-  for (const RunPenalty& entry : found) {
-    sum += entry.frames;
-    if (2 * sum >= total) return entry.penalty;
-  }
-  return found.back().penalty;
+  if (channels.samples.empty()) return std::nullopt;
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < channels.samples.size(); ++i) all.push_back(i);
+  const std::vector<std::vector<std::size_t>> groups{all};
+  const double penalty = choose_penalties(channels, groups).groups[0];
+  constexpr double kMinCutoff_hz = 1.0;
+  return std::min(penalty, penalty_of_half_power(kMinCutoff_hz, hz, {}));
 }
 
 }  // namespace
 
 void smooth_runs(std::span<VectorRun> runs, double min_noise, double hz) {
-  const double penalty = shared_penalty(runs, min_noise, hz);
+  const auto penalty = shared_penalty(runs, min_noise, hz);
+  if (!penalty) return;
   for (VectorRun& run : runs) {
     if (!is_noisy(run, min_noise)) continue;
     SmoothingSpline spline(run.values.size());
-    spline.set_penalty(penalty);
+    spline.set_penalty(*penalty);
     RunChannels channels = channels_of(run);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       (void)spline.fit(channels[axis], channels[axis]);

@@ -18,13 +18,13 @@ struct VectorRun {
   std::vector<glm::dvec3> values;
 };
 
-/// Smooths runs, each apart, by cubic splines with one penalty: the median over the runs
-/// of at least 20 frames of what generalised cross-validation chooses, by length; without
-/// such a run, half power at 6 Hz. Runs of fewer than 5 frames, and those with less noise
-/// than `min_noise`, are left as they are: the noise per axis is estimated by the median
-/// of the second differences' lengths, so some frames of a planted foot that rolls do not
-/// count. Linear in frames. The axes of the values influence the choice.
-/// Precondition: hz > 0.
+/// Smooths runs, each apart, by cubic splines with one penalty, which generalised
+/// cross-validation chooses for all runs of at least 8 frames together (half power at 1
+/// Hz or above). Runs are left as they are if they have fewer than 5 frames, or less
+/// noise than `min_noise`: the noise per axis is estimated by the median of the second
+/// differences' lengths, so some frames of a planted foot that rolls do not count. All
+/// are left if fewer than 20 frames remain for the choice. Linear in frames. The axes of
+/// the values influence the choice. Precondition: hz > 0.
 void smooth_runs(std::span<VectorRun> runs, double min_noise, double hz);
 
 /// Returns the places of a foot over a run, along the foot's axes at its first frame.

@@ -73,7 +73,7 @@ struct LoopPeriods {
 
 /// Distances of all pairs of frames, for a picture. Cell (row, column) holds the smallest
 /// distance of the pairs whose first frame is among cell_frames from row * cell_frames
-/// on, and whose last frame likewise of the column.
+/// on, and whose last frame is among those of the column.
 struct LoopMap {
   int cells = 0;
   int cell_frames = 1;            ///< Frames of the motion per cell.

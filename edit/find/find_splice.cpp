@@ -12,6 +12,7 @@
 
 #include "core/base/assert.h"
 #include "retarget/contacts/frame_marks.h"
+#include "retarget/feet/adapt_to_ground.h"
 
 namespace marey::edit {
 namespace {
@@ -59,6 +60,11 @@ std::vector<SupportClass> support_classes(const retarget::Contacts& contacts) {
   return out;
 }
 
+double floor_of(const EditState& state) {
+  return retarget::floor_height_m(state.map,
+                                  retarget::ankles_rest_m(state.map, state.contacts));
+}
+
 class SpliceSearch {
  public:
   SpliceSearch(const EditState& first,
@@ -68,7 +74,12 @@ class SpliceSearch {
         b_(match_points(second.motion, second.map)),
         supports_a_(support_classes(first.contacts)),
         supports_b_(support_classes(second.contacts)),
-        options_(options) {}
+        options_(options) {
+    if (!options.align) return;
+    // Motions are compared above their own floors.
+    const double raised_m = floor_of(first) - floor_of(second);
+    for (glm::dvec3& place : b_.places) place.y += raised_m;
+  }
 
   // Adds the pairs of the windows on a grid of this step.
   void add(const SpliceWindows& windows, int step, std::vector<SpliceCandidate>& out) {
@@ -97,8 +108,8 @@ class SpliceSearch {
   const FindSpliceOptions& options_;
 };
 
-// Rounding decides nothing: costs this near are equal. [m]
-constexpr double kSameCost_m = 1e-7;
+// Costs this near are equal: the root of a rounding error must not decide. [m]
+constexpr double kSameCost_m = 1e-5;
 
 void sort_by_cost(std::vector<SpliceCandidate>& candidates) {
   std::sort(

@@ -46,7 +46,7 @@ struct FindSpliceOptions {
 
 /// Returns the best pairs of frames for a transition, by cost: the weighted difference of
 /// joints and of their velocities over five frames round each, after the best planar move
-/// (Kovar, Gleicher and Pighin, "Motion graphs", 2002; match_windows()). Of equal costs
+/// (Kovar, Gleicher and Pighin, "Motion graphs", 2002; match_windows()). With equal costs
 /// the later `leave` comes first. Pairs that stand on opposite feet are left out; the
 /// result is empty if there are no others. Windows with more than 40 000 pairs are
 /// searched on a grid, whose best places are then searched frame by frame. Cost: some

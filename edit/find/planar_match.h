@@ -39,7 +39,7 @@ void move_pose(const PlanarMove& move, Pose& pose);
 
 /// Returns the move `a_from_b` of points that minimizes the weighted sum of squares
 /// sum w |a_k - move(b_k)|^2 (Kovar, Gleicher and Pighin, "Motion graphs", 2002, eq. 2,
-/// with weights that need not sum to 1). Points on one vertical have no turn: it is 0.
+/// with weights of any sum). Points on one vertical have no turn: it is 0.
 /// Linear in points.
 /// Precondition: as many points and weights each; weights not negative, not all 0.
 [[nodiscard]] PlanarMove fit_planar(std::span<const glm::dvec3> a,

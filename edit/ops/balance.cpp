@@ -143,7 +143,7 @@ Result<EditState> apply_balance(const BalanceOp& /*op*/,
   report.figures.emplace_back("outside_frames", after);
   report.figures.emplace_back("max_shift_mm", kToMm * max_shift_m);
   report.figures.emplace_back(
-      "largest_mm",
+      "displaced_mm",
       kToMm * mark_displaced(out, state.motion, weights->frames, context.index));
   return out;
 }

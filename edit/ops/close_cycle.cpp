@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "edit/ops/cycle_paths.h"
 #include "edit/state/resample_state.h"
 #include <glm/geometric.hpp>
 
@@ -25,74 +26,6 @@ using retarget::FootPlace;
 
 /// Rounding error of an instant. [frames]
 constexpr double kSameInstant = 1e-9;
-
-/// Integral of the turning unit vector over a screw of this turn, over its turn.
-glm::dvec2 screw_factors(double turn_rad) {
-  if (std::abs(turn_rad) < 1e-4) {
-    const double squared = turn_rad * turn_rad;
-    return {1.0 - squared / 6.0, 0.5 * turn_rad * (1.0 - squared / 12.0)};
-  }
-  return {std::sin(turn_rad) / turn_rad, (1.0 - std::cos(turn_rad)) / turn_rad};
-}
-
-/// The planar motion at constant speed and turn that is `travel` at share 1.
-class CycleScrew {
- public:
-  explicit CycleScrew(const PlanarMove& travel) : turn_rad_(travel.turn_rad) {
-    // Inverse of the matrix that at() multiplies with.
-    const glm::dvec2 f = screw_factors(turn_rad_);
-    const double det = f.x * f.x + f.y * f.y;
-    const glm::dvec2 s = travel.shift_xz_m;
-    speed_ = {(f.x * s.x - f.y * s.y) / det, (f.y * s.x + f.x * s.y) / det};
-  }
-
-  [[nodiscard]] PlanarMove at(double share) const {
-    const double turn = share * turn_rad_;
-    const glm::dvec2 f = screw_factors(turn);
-    return {turn,
-            share * glm::dvec2(f.x * speed_.x + f.y * speed_.y,
-                               f.x * speed_.y - f.y * speed_.x)};
-  }
-
- private:
-  double turn_rad_;
-  glm::dvec2 speed_{0.0};
-};
-
-/// The paths on which the motion lies before and after, over shares of the cycle.
-class CyclePaths {
- public:
-  /// `centre` is a place of the body at share 1/2, in the screw's frame.
-  CyclePaths(const CycleSpec& spec, const glm::dvec3& centre)
-      : screw_(spec.travel),
-        middle_(screw_.at(0.5)),
-        keeps_(spec.drift == CycleDrift::kKeep) {
-    const glm::dvec3 start = screw_.at(0.0)(centre);
-    const glm::dvec3 end = screw_.at(1.0)(centre);
-    const glm::dvec2 chord(end.x - start.x, end.z - start.z);
-    const double half_turn = 0.5 * spec.travel.turn_rad;
-    const double sine = std::sin(half_turn);
-    const double stretch = std::abs(half_turn) < 1e-6 ? 1.0 : half_turn / sine;
-    line_m_ = stretch * chord;
-  }
-
-  [[nodiscard]] PlanarMove old_path(double share) const { return screw_.at(share); }
-  [[nodiscard]] PlanarMove new_path(double share) const {
-    if (keeps_) return screw_.at(share);
-    return {middle_.turn_rad, middle_.shift_xz_m + (share - 0.5) * line_m_};
-  }
-  [[nodiscard]] PlanarMove step() const { return new_path(1.0) * inverse(new_path(0.0)); }
-  /// Moves a frame to where its cycle started.
-  [[nodiscard]] PlanarMove in_place(double share) const {
-    return new_path(0.0) * inverse(new_path(share));
-  }
-
- private:
-  CycleScrew screw_;
-  PlanarMove middle_;
-  glm::dvec2 line_m_{0.0};
-  bool keeps_;
-};
 
 /// Signals of one cycle and its surroundings in the frame of the screw.
 struct CycleChannels {
@@ -364,7 +297,7 @@ ClosedCycle close_cycle(const EditState& state, const CycleSpec& spec) {
   ClosedCycle out;
   out.cycle = slice_state(cycle.samples, {before, before + frames - 1});
   out.contacts = out.cycle.contacts;
-  const CyclePaths paths(spec, cycle_centre(cycle, spec));
+  const CyclePaths paths(spec.travel, spec.drift, cycle_centre(cycle, spec));
   CycleChannels channels = channels_of(cycle, paths);
   make_periodic(channels);
   ThreeCycles three = repeat_channels(channels, paths, out.cycle);
@@ -386,40 +319,6 @@ ClosedCycle close_cycle(const EditState& state, const CycleSpec& spec) {
   } else {
     out.step = out.travel;
   }
-  return out;
-}
-
-SeamAcceleration seam_acceleration(const Motion& cycle, const PlanarMove& step) {
-  const std::size_t frames = cycle.poses.size();
-  MAREY_ASSERT(frames >= 4);
-  const std::size_t joints = cycle.skeleton.joints.size();
-  std::vector<std::vector<glm::dvec3>> places;
-  const auto add = [&](const Pose& pose, const PlanarMove& move) {
-    places.emplace_back();
-    for (const RigidTransform& joint : world_from_joints(cycle.skeleton, pose)) {
-      places.back().push_back(move(joint.translation));
-    }
-  };
-  add(cycle.poses.back(), inverse(step));
-  for (const Pose& pose : cycle.poses) add(pose, {});
-  add(cycle.poses.front(), step);
-  std::vector<double> largest;
-  for (std::size_t t = 1; t + 1 < places.size(); ++t) {
-    double of_frame = 0.0;
-    for (std::size_t j = 0; j < joints; ++j) {
-      if (!cycle.skeleton.joints[j].bone) continue;
-      const glm::dvec3 bend = places[t - 1][j] - 2.0 * places[t][j] + places[t + 1][j];
-      of_frame = std::max(of_frame, glm::length(bend));
-    }
-    largest.push_back(of_frame * cycle.rate.hz * cycle.rate.hz);
-  }
-  SeamAcceleration out;
-  out.seam = std::max(largest.front(), largest.back());
-  std::vector<double> inside(largest.begin() + 1, largest.end() - 1);
-  const std::size_t at = (inside.size() - 1) * 95 / 100;
-  const auto percentile = inside.begin() + static_cast<std::ptrdiff_t>(at);
-  std::nth_element(inside.begin(), percentile, inside.end());
-  out.inside = *percentile;
   return out;
 }
 

@@ -14,6 +14,7 @@
 
 #include "edit/find/find_loops.h"
 #include "edit/ops/close_cycle.h"
+#include "edit/ops/seam_acceleration.h"
 #include "edit/state/check_op_keys.h"
 #include "edit/state/resample_state.h"
 #include "edit/state/resolve_moment.h"
@@ -30,7 +31,7 @@ constexpr double kMaxGap_legs = 0.15;
 constexpr double kMaxJointGap_legs = 0.35;
 constexpr double kNearlyAsGood = 1.1;
 constexpr int kMaxCycles = 1000;
-constexpr double kDegrees = 57.295779513082320877;
+constexpr double kCycleDegrees = 57.295779513082320877;
 
 Error bad_cyclify(std::string cause, std::string next) {
   return bad_input("motion", std::move(cause), std::move(next));
@@ -69,12 +70,23 @@ struct ChosenCycle {
   LoopCandidate loop;
 };
 
+/// A foot that stands on one footprint during the whole cycle.
+bool has_fixed_foot(const EditState& state, const LoopCandidate& loop) {
+  for (const auto& foot : state.contacts.feet) {
+    for (const FrameRange& run : foot.stance) {
+      if (run.first <= loop.first && run.last >= loop.last) return true;
+    }
+  }
+  return false;
+}
+
 ChosenCycle chosen(const EditState& state, const CyclifyOp& op, LoopCandidate loop) {
   ChosenCycle out;
   out.spec.first = loop.first;
   out.spec.period_frames = std::min(
       loop.period_frames, static_cast<double>(state.frame_count() - 1 - loop.first));
-  out.spec.travel = loop.travel;
+  // Footprints of the next cycle are those of this one moved by the travel.
+  if (!has_fixed_foot(state, loop)) out.spec.travel = loop.travel;
   out.spec.drift = op.drift;
   out.loop = std::move(loop);
   return out;
@@ -262,7 +274,7 @@ void report_cycle(const ChosenCycle& chosen,
   figure("gap_rms_mm", 1e3 * match.rms_m);
   figure("gap_worst_mm", 1e3 * match.worst_m);
   figure("velocity_gap_m_per_s", match.rms_velocity_m_per_s);
-  figure("turn_deg", kDegrees * travel.turn_rad);
+  figure("turn_deg", kCycleDegrees * travel.turn_rad);
   figure("travel_m", closed.travel_m);
   figure("seam_acceleration_m_per_s2", seam.seam);
   figure("inside_acceleration_p95_m_per_s2", seam.inside);

@@ -14,7 +14,8 @@ namespace marey::edit {
 ///
 /// The result has `cycles` copies, each of N whole frames at the motion's rate. Its last
 /// frame is the one before the repetition: frame k + N is frame k moved by the travel of
-/// one cycle, and so would be the frame after the last. The travel is in the figures.
+/// one cycle, and so would be the frame after the last. The travel is in the figures. A
+/// body of which a foot stands during the whole cycle does not travel.
 ///
 /// Annotations, contacts, uncertainty and lineage are those of the source's frames, in
 /// each copy. The result has the annotation "loops" over its whole length, and the events

@@ -176,7 +176,7 @@ Result<EditState> apply_exaggerate(const ExaggerateOp& op,
   }
   const double largest_m =
       mark_displaced(out, state.motion, weights->frames, context.index);
-  report.figures.emplace_back("largest_mm", kExaggerateToMm * largest_m);
+  report.figures.emplace_back("displaced_mm", kExaggerateToMm * largest_m);
   return out;
 }
 

@@ -52,7 +52,7 @@ std::vector<EditGroup> chosen_groups(const EditOp& op) {
   return {kEditGroups.begin(), kEditGroups.end()};
 }
 
-/// What was taken away from the places of a group's joints.
+/// Change of the places of a group's joints by the filter.
 struct RemovedFigures {
   double rms_m = 0.0;
   double largest_m = 0.0;
@@ -108,7 +108,7 @@ void report_group(const EditState& state,
   add("_removed_max_s", static_cast<double>(removed.frame) / state.motion.rate.hz);
 }
 
-/// Filters all groups, and reports those that do not move.
+/// Filters all groups, and reports groups without movement.
 std::array<std::vector<int>, 2> filter_groups(const FilterOp& op,
                                               const OpContext& context,
                                               const EditState& state,
@@ -134,8 +134,7 @@ std::array<std::vector<int>, 2> filter_groups(const FilterOp& op,
   Finding finding{Severity::kNote,
                   "constant",
                   constant,
-                  "does not move, or has no noise that can be told from its movement; "
-                  "left as it is",
+                  "has no movement to filter; left as it is",
                   ""};
   report.findings.push_back(std::move(finding));
   return impacts;
@@ -201,11 +200,12 @@ Result<EditState> apply_filter(const FilterOp& op,
   if (!weights) return weights.error();
   if (state.motion.poses.size() < kMinSmoothingSamples) {
     report.findings.push_back(
-        fair_finding("too_short",
-                     "motion",
-                     "has " + std::to_string(state.frame_count()) +
-                         " frames, too few to tell noise from movement; left as it is",
-                     "filter before the cut")
+        fair_finding(
+            "too_short",
+            "motion",
+            "has " + std::to_string(state.frame_count()) +
+                " frames, too few to separate noise from movement; left as it is",
+            "filter before the cut")
             .measured(state.frame_count(),
                       static_cast<double>(kMinSmoothingSamples),
                       "frames"));

@@ -18,7 +18,7 @@ namespace marey::edit {
 /// stances that are used; the whole motion moves. Linear in frames.
 ///
 /// With footprints on one line the tilt across it is unknown, with stances at one place
-/// the whole tilt: that part of the tilt is left, and a finding says so.
+/// the whole tilt: that part of the tilt is left, with a finding.
 ///
 /// Figures: tilt_deg, tilt_sigma_deg (if observed), residual_mm (root mean square of the
 /// soles' distances from the plane), largest_residual_mm, raised_mm (of the support

@@ -54,8 +54,8 @@ class PathChange {
 /// Returns, for each frame, the instant whose change of the path moves a foot: the middle
 /// of its stance while it stands; between stances the instant moves from one middle to
 /// the next with continuous speed and acceleration; far from stances it is the frame
-/// itself. Stances that begin before the span do not move beyond its start, those that
-/// end after it do not move before its end. A foot that never stands follows the frames.
+/// itself. The instant of a stance across an end of the span is
+/// limited to that end. A foot that never stands follows the frames.
 /// Linear in frames.
 [[nodiscard]] std::vector<double> foot_instants(std::span<const FrameRange> stances,
                                                 int frame_count,

@@ -13,8 +13,7 @@ namespace marey::edit {
 ///
 /// The share of the displacement is smooth_step(1 - |t - at| / width_s), 1 at the
 /// instant and 0 from width_s on, with continuous speed and acceleration. Frames outside
-/// keep their pose to the bit. displace_bone() states the rules for
-/// limbs and feet.
+/// keep their pose to the bit. Joints and feet are displaced by displace_bone().
 ///
 /// Each key is an operation of its own, relative to the motion that it receives, so
 /// displacements add up. Keys that are width_s apart have no effect at each other's

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "edit/find/find_splice.h"
+#include "edit/splice/bridge_stances.h"
 #include "edit/splice/choose_splice.h"
 #include "edit/splice/splice_carry.h"
 #include "edit/splice/splice_overlap.h"
@@ -181,7 +182,7 @@ void report_planted(const PlantNearReport& planted, OpReport& report) {
                    "choose frames that fit better with at and enter_at"));
 }
 
-// Marks what was invented round the join, and touches what follows.
+// Marks the invented frames at the join, and touches the frames after it.
 void mark_join(const FrameRange& changed,
                const FrameRange& moved,
                const Motion& plain,
@@ -212,7 +213,8 @@ void smooth_join(const SpliceParts& parts,
         united(changed,
                displace_join(parts.first, parts.second, parts.frames, blend_frames, out));
   }
-  const PlantNearReport planted = plant_feet_near(out, changed);
+  const FootWays feet = bridge_stances(parts.first, parts.second, parts.frames, out);
+  const PlantNearReport planted = plant_feet_near(out, changed, feet);
   report_planted(planted, report);
   const int sink = static_cast<int>(std::ceil(kSpliceSink_s * out.motion.rate.hz));
   const FrameRange moved =

@@ -13,20 +13,20 @@ namespace marey::edit {
 /// Joins another source to the end of the motion.
 ///
 /// Frame `at` of the motion and frame `enter_at` of the source become one instant of the
-/// result. A frame that is not given is the best one (edit/find/find_splice.h): of the
-/// motion within the span, or its second half without one; of the source within its
-/// first half; both within 4 s of the end or the start. A source with another rate or
-/// another body is fitted first (edit/splice/splice_source.h).
+/// result. A frame that is not given is the best one (edit/find/find_splice.h). It is
+/// searched in the motion within the span, or its second half without one; and in the
+/// first half of the source, within 4 s of the end or the start. A source with another
+/// rate or another body is fitted first (edit/ops/splice_source.h).
 ///
 /// With `align`, the source is turned and moved on the floor so that the postures at the
 /// join fit best, then shifted so that the feet that bear across the join keep their
 /// footprint, and raised to the motion's floor. Its constraints move with it.
 ///
 /// With an overlap, both motions are shown for `overlap_s` round the join
-/// (edit/splice/splice_overlap.h), aligned in time by their supports, mixed with C2
-/// weights, the root anchored on the bearing feet. Without one, or if a motion ends or
-/// begins there, both are displaced towards each other, half of the gap each, decaying
-/// over `blend_s` (0.3 s if it is 0). Then the feet are planted in the stances that touch
+/// (edit/ops/splice_overlap.h), aligned in time by their supports, mixed with C2 weights,
+/// the root anchored on the bearing feet. Without one, or if a motion ends or begins
+/// there, both are displaced towards each other, half of the gap each, decaying over
+/// `blend_s` (0.3 s if it is 0). Then the feet are planted in the stances that touch
 /// these frames (edit/state/plant_near.h).
 ///
 /// Frames that are identical in both motions to the bit are joined without any change: a

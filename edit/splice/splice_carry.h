@@ -13,7 +13,7 @@ namespace marey::edit {
 struct JoinFrames {
   int start = 0;  ///< Frame of the result that shows the second motion's first one.
   int join = 0;   ///< Last frame that is the first motion's.
-  std::span<const double> weight;  ///< Of the second motion, from `start` on.
+  std::span<const double> weight;  ///< Annotations of the second motion, from `start` on.
 };
 
 /// Joins two motions on one time grid: frames up to `join` are the first one's, later
@@ -21,13 +21,12 @@ struct JoinFrames {
 /// uncertainty go along.
 ///
 /// An annotation that ends at the join and one of the same text that begins there become
-/// one; so do constraints of the same id and goal. Another constraint whose id is taken
-/// gets a new one. Constraints that are active across the join fade over the overlap.
-/// Curves are mixed by the weights; a motion without a curve counts as 0. Uncertainty is
-/// dropped, with a finding, if one of the motions has none. Contacts shorter than 0.06 s
-/// that the join cuts are dropped, and gaps shorter than 0.05 s closed.
-/// Precondition: same skeleton and rate; `start` <= `join`; the first motion has at least
-/// the frames up to `join`.
+/// one. Constraints of the same id and goal become one, too. Another constraint whose id
+/// is taken gets a new one. Constraints that are active across the join fade over the
+/// overlap. Curves are mixed by the weights; a motion without a curve counts as 0.
+/// Uncertainty is dropped, with a finding, if one of the motions has none. Contacts:
+/// join_contacts(). Precondition: same skeleton and rate; `start` <= `join`; the first
+/// motion has at least the frames up to `join`.
 [[nodiscard]] EditState join_states(const EditState& first,
                                     const EditState& second,
                                     const JoinFrames& frames,

@@ -3,6 +3,7 @@
 #include "edit/splice/splice_contacts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -33,33 +34,69 @@ std::vector<FrameRange> runs_with(const FrameMarks& marks, char value) {
   return out;
 }
 
-FrameMarks joined_marks(const std::vector<FrameRange>& first,
-                        const Contacts& a,
-                        const std::vector<FrameRange>& second,
-                        const Contacts& b,
-                        const JoinedFrames& frames) {
-  FrameMarks out = retarget::frame_marks(first, static_cast<std::size_t>(a.frame_count));
+// Marks of both motions on the frames of the joined one.
+struct BothMarks {
+  FrameMarks first;   // 0 where the first motion has no frame.
+  FrameMarks second;  // 0 where the second motion has no frame.
+};
+
+BothMarks both_marks(const std::vector<FrameRange>& first,
+                     const Contacts& a,
+                     const std::vector<FrameRange>& second,
+                     const Contacts& b,
+                     const JoinedFrames& frames) {
+  const auto count = static_cast<std::size_t>(frames.start + b.frame_count);
+  BothMarks out;
+  out.first = retarget::frame_marks(first, static_cast<std::size_t>(a.frame_count));
+  out.first.resize(count, 0);
   const FrameMarks tail =
       retarget::frame_marks(second, static_cast<std::size_t>(b.frame_count));
-  out.resize(static_cast<std::size_t>(frames.join) + 1);
-  out.insert(out.end(), tail.begin() + frames.join - frames.start + 1, tail.end());
+  out.second.assign(static_cast<std::size_t>(frames.start), 0);
+  out.second.insert(out.second.end(), tail.begin(), tail.end());
   return out;
 }
 
-// Gives runs that the join touches and that are shorter than this the other value.
-void remove_short(const JoinedFrames& frames,
-                  char value,
-                  double max_s,
-                  FrameMarks& marks) {
-  for (const FrameRange& run : runs_with(marks, value)) {
+FrameMarks joined_marks(const BothMarks& both, const JoinedFrames& frames) {
+  FrameMarks out = both.second;
+  std::copy(both.first.begin(), both.first.begin() + frames.join + 1, out.begin());
+  return out;
+}
+
+// Closes a gap that the join made, if it is short.
+void close_gap(const JoinedFrames& frames, FrameMarks& marks) {
+  for (const FrameRange& run : runs_with(marks, 0)) {
     const bool touches_join = run.first <= frames.join + 1 && run.last >= frames.join;
     const bool is_within =
         run.first > frames.start && run.last < frames.start + frames.length;
     if (!touches_join || !is_within) continue;
-    if ((run.last - run.first + 1) / frames.hz >= max_s) continue;
-    std::fill(marks.begin() + run.first,
-              marks.begin() + run.last + 1,
-              static_cast<char>(1 - value));
+    if ((run.last - run.first + 1) / frames.hz >= kMaxGap_s) continue;
+    std::fill(marks.begin() + run.first, marks.begin() + run.last + 1, char{1});
+  }
+}
+
+// Gives a contact that the join cut short its minimum length, as far as its own motion
+// has it; drops it otherwise.
+void mend_short(const BothMarks& both, const JoinedFrames& frames, FrameMarks& marks) {
+  const int least = static_cast<int>(std::ceil(kMinContact_s * frames.hz));
+  const int end = frames.start + frames.length;
+  for (const FrameRange& run : runs_with(marks, 1)) {
+    const bool is_first = run.last == frames.join;
+    const bool is_second = run.first == frames.join + 1;
+    if ((!is_first && !is_second) || run.last - run.first + 1 >= least) continue;
+    if (run.first <= frames.start || run.last >= end) continue;
+    const FrameMarks& own = is_first ? both.first : both.second;
+    const int step = is_first ? 1 : -1;
+    int edge = is_first ? run.last : run.first;
+    int count = run.last - run.first + 1;
+    while (count < least && edge + step > frames.start && edge + step < end &&
+           own[static_cast<std::size_t>(edge + step)] != 0) {
+      edge += step;
+      ++count;
+    }
+    const int from = std::min(edge, run.first);
+    const int to = std::max(edge, run.last);
+    const char value = count >= least ? char{1} : char{0};
+    std::fill(marks.begin() + from, marks.begin() + to + 1, value);
   }
 }
 
@@ -69,15 +106,15 @@ FootContacts join_foot(const FootContacts& first,
                        const Contacts& b,
                        const JoinedFrames& frames) {
   const auto joined = [&](std::vector<FrameRange> FootContacts::*runs) {
-    return joined_marks(first.*runs, a, second.*runs, b, frames);
+    const BothMarks both = both_marks(first.*runs, a, second.*runs, b, frames);
+    FrameMarks marks = joined_marks(both, frames);
+    close_gap(frames, marks);
+    mend_short(both, frames, marks);
+    return marks;
   };
-  FrameMarks heel = joined(&FootContacts::heel);
-  FrameMarks ball = joined(&FootContacts::ball);
+  const FrameMarks heel = joined(&FootContacts::heel);
+  const FrameMarks ball = joined(&FootContacts::ball);
   FrameMarks heel_up = joined(&FootContacts::heel_up);
-  for (FrameMarks* marks : {&heel, &ball}) {
-    remove_short(frames, 0, kMaxGap_s, *marks);
-    remove_short(frames, 1, kMinContact_s, *marks);
-  }
   FrameMarks stance = heel;
   for (std::size_t t = 0; t < heel.size(); ++t) {
     stance[t] = static_cast<char>(heel[t] | ball[t]);

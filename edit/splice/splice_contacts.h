@@ -15,8 +15,9 @@ struct JoinedFrames {
 };
 
 /// Returns the contacts of a joined motion: the first one's up to the join, then the
-/// second one's. Within the overlap, contacts that the join cut to less than 0.06 s are
-/// dropped and gaps of less than 0.05 s are closed. Heights are those of the first
+/// second one's. Within the overlap, contacts that the join cut to less than 0.06 s last
+/// that long if they do in their motion, else they are dropped; gaps of less than 0.05 s
+/// are closed. Heights are those of the first
 /// motion, or of the second one for a foot that never stands in the first. Linear in
 /// frames.
 /// Precondition: `start` <= `join`; both motions show the frame `join`.

@@ -13,7 +13,7 @@ namespace marey::edit {
 struct SpliceOverlap {
   std::vector<double> first_at;   ///< Frame of the first motion, with its fraction.
   std::vector<double> second_at;  ///< Frame of the second motion.
-  std::vector<double> weight;     ///< Of the second motion: 0 to 1, C2.
+  std::vector<double> weight;     ///< Weight of the second motion: 0 to 1, C2.
   int matched_edges = 0;    ///< Touch-downs and lift-offs that were aligned in time.
   double max_warp_s = 0.0;  ///< Largest displacement of an instant in time.
   double opposed_s = 0.0;   ///< Time in which the motions stand on opposite feet.

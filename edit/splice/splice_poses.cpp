@@ -16,6 +16,7 @@
 #include "core/base/assert.h"
 #include "core/pose.h"
 #include "core/transform.h"
+#include "retarget/base/smooth_step.h"
 #include "retarget/contacts/frame_marks.h"
 #include "retarget/contacts/support_frame.h"
 
@@ -64,25 +65,29 @@ glm::dvec3 rate_of_vector(const glm::dvec3& d, const glm::dvec3& turn_rate) {
   return turn_rate + 0.5 * once + factor * glm::cross(d, once);
 }
 
+// Time over which the velocity gap of a displacement fades. Longer, the noise of
+// velocities leads far away. [s]
+constexpr double kVelocityFade_s = 0.15;
+
 // A displacement that starts with a value and a rate, and decays to rest over a time,
 // with continuous acceleration and none at the start.
 struct Decay {
   glm::dvec3 value{0.0};
   glm::dvec3 rate{0.0};  // Per frame.
 
-  [[nodiscard]] glm::dvec3 at(double frame, int length) const {
-    const double x = frame / length;
+  [[nodiscard]] glm::dvec3 at(int frame, int length, double rate_length) const {
+    const double x = std::min(1.0, frame / rate_length);
     const double x3 = x * x * x;
-    const double x4 = x3 * x;
-    const double x5 = x4 * x;
-    return (1.0 - 10.0 * x3 + 15.0 * x4 - 6.0 * x5) * value +
-           (x - 6.0 * x3 + 8.0 * x4 - 3.0 * x5) * (static_cast<double>(length) * rate);
+    const double go = x - 6.0 * x3 + 8.0 * x3 * x - 3.0 * x3 * x * x;
+    const double share = 1.0 - retarget::smooth_step(static_cast<double>(frame) / length);
+    return share * value + go * rate_length * rate;
   }
 };
 
 // Displacements of one side of the join, from the join on.
 struct SideDecay {
-  int length = 0;  // Frames; 0: the side keeps its poses.
+  int length = 0;  // Frames.
+  double rate_length = 0.0;
   Decay root;
   std::vector<Decay> joints;  // Rotation vectors in the joint's own axes.
 };
@@ -103,12 +108,14 @@ struct JoinPoses {
   const Pose& before_a;
   const Pose& b;
   const Pose& after_b;
-  double share_a = 0.5;  // Of the gap, taken by the first side.
+  double hz = 0.0;
+  double share_a = 0.5;  // Part of the gap that the first side takes.
 };
 
 SideDecay decay_of(const JoinPoses& join, bool is_first, int length) {
   SideDecay out;
   out.length = length;
+  out.rate_length = std::min(1.0 * length, std::max(1.0, kVelocityFade_s * join.hz));
   const double share = is_first ? join.share_a : join.share_a - 1.0;
   // Time runs away from the join: backwards on the first side.
   const double sense = is_first ? -1.0 : 1.0;
@@ -137,10 +144,10 @@ SideDecay decay_of(const JoinPoses& join, bool is_first, int length) {
 
 // The pose of a side, `frame` frames from the join.
 void displace(const SideDecay& decay, int frame, Pose& pose) {
-  pose.root_in_world += decay.root.at(frame, decay.length);
+  pose.root_in_world += decay.root.at(frame, decay.length, decay.rate_length);
   for (std::size_t j = 0; j < decay.joints.size(); ++j) {
     glm::dquat& q = pose.parent_from_joint[j];
-    q = turned_by(q, decay.joints[j].at(frame, decay.length));
+    q = turned_by(q, decay.joints[j].at(frame, decay.length, decay.rate_length));
   }
 }
 
@@ -211,6 +218,7 @@ FrameRange displace_join(const EditState& first,
                         pose_at(first, join - 1),
                         pose_at(second, 0),
                         pose_at(second, 1),
+                        first.motion.rate.hz,
                         share_a};
   const SideDecay before = decay_of(poses, true, std::max(1, length_a));
   const SideDecay after = decay_of(poses, false, std::max(1, length_b));

@@ -145,8 +145,8 @@ void report_constraint(const retarget::KeptConstraint& kept,
           .measured(error, std::nullopt, unit));
 }
 
-/// Reports all constraints, the first `own_supports` supports, and unmet planned
-/// supports.
+/// Reports the constraints and the first `own_supports` supports; reports a planned
+/// support only if it is not met.
 void report_adapted(const retarget::AdaptedMotion& adapted,
                     std::size_t own_supports,
                     double rate_hz,
@@ -207,7 +207,7 @@ Status adapt_state(EditState& state, OpReport& report) {
   report_adapted(*adapted, own_supports, state.motion.rate.hz, report);
   report.figures.emplace_back("slide_mm", measure_slide(state).worst_drift_mm);
   report.figures.emplace_back(
-      "largest_mm",
+      "displaced_mm",
       kToMm * mark_displaced(
                   state, before, changed_frames(before, state.motion), report.index));
   return Done{};

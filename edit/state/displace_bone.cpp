@@ -249,7 +249,7 @@ Status displace_bone(const BoneDisplacement& displacement,
   report_slide(displacement, weights, state, report);
   keep_feet(displacement, before, weights.frames, state, report);
   const double largest_m = mark_displaced(state, before, weights.frames, report.index);
-  report.figures.emplace_back("largest_mm", kBoneToMm * largest_m);
+  report.figures.emplace_back("displaced_mm", kBoneToMm * largest_m);
   return Done{};
 }
 

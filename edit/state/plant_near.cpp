@@ -10,14 +10,15 @@
 #include <utility>
 #include <vector>
 
-#include <glm/common.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/base/assert.h"
-#include "core/pose.h"
+#include "core/transform.h"
 #include "retarget/base/smooth_step.h"
-#include "retarget/body/normalized_skeleton.h"
+#include "retarget/contacts/frame_marks.h"
 #include "retarget/feet/adapt_to_ground.h"
+#include "retarget/feet/footprint.h"
+#include "retarget/feet/plan_foot_path.h"
 
 namespace marey::edit {
 namespace {
@@ -30,6 +31,9 @@ using PlannedFeet = std::array<std::vector<std::optional<FootPlace>>, 2>;
 constexpr double kMinFade_s = 0.15;
 // Fade of a foot that does not stand again. [s]
 constexpr double kFreeFade_s = 0.4;
+// Time over which the change of a displacement is fitted, and over which it fades. [s]
+constexpr double kRateFit_s = 0.025;
+constexpr double kRateFade_s = 0.15;
 
 bool overlaps(const FrameRange& a, const FrameRange& b) {
   return a.first <= b.last && b.first <= a.last;
@@ -61,77 +65,165 @@ std::vector<FrameRange> runs_within(const std::vector<FrameRange>& runs,
   return out;
 }
 
-// One foot's stances to plant, and the frames over which its displacement fades.
-struct NearStances {
-  FrameRange planted;
-  int fade_from = 0;  // The displacement is 0 here and before.
-  int fade_to = 0;
+// Displacement of a foot at the edge of a stance, and its change per frame away from the
+// stance. Rotations are vectors in world axes.
+struct FootOffset {
+  glm::dvec3 ankle{0.0};
+  glm::dvec3 foot{0.0};
+  glm::dvec3 toes{0.0};
+};
 
-  [[nodiscard]] double share(int frame) const {
-    if (frame < planted.first) {
-      return retarget::smooth_step(static_cast<double>(frame - fade_from) /
-                                   std::max(1, planted.first - fade_from));
+glm::dvec3 turn_from(const glm::dquat& from, const glm::dquat& to) {
+  return rotation_vector(to * glm::conjugate(from));
+}
+
+FootOffset offset_of(const FootPlace& from, const FootPlace& to) {
+  return {to.ankle_in_world - from.ankle_in_world,
+          turn_from(from.foot, to.foot),
+          turn_from(from.toes, to.toes)};
+}
+
+// One foot over the whole motion: where it is, and where it stands in planted stances.
+struct PlantedWay {
+  const std::vector<FootPlace>& before;
+  const std::vector<FootPlace>& planned;
+  std::vector<std::optional<FootPlace>> out;
+
+  [[nodiscard]] FootOffset offset(int frame) const {
+    const auto t = static_cast<std::size_t>(frame);
+    return offset_of(before[t], planned[t]);
+  }
+  // Returns the change of the offset per frame at the end of `count` frames that lead to
+  // the edge, by a line fit.
+  [[nodiscard]] FootOffset rate(int edge, int step, int count) const {
+    FootOffset sum;
+    double square = 0.0;
+    for (int k = 0; k < count; ++k) {
+      const double x = 0.5 * (count - 1) - k;
+      const FootOffset at = offset(edge - k * step);
+      sum = {sum.ankle + x * at.ankle, sum.foot + x * at.foot, sum.toes + x * at.toes};
+      square += x * x;
     }
-    if (frame > planted.last) {
-      return retarget::smooth_step(static_cast<double>(fade_to - frame) /
-                                   std::max(1, fade_to - planted.last));
+    if (square == 0.0) return {};
+    return {sum.ankle / square, sum.foot / square, sum.toes / square};
+  }
+  // Adds the offset of a stance's edge to the frames beyond, falling to 0 over `length`
+  // frames: quintics in the offset and its rate. The rate has less time: noise of it
+  // would lead far away.
+  void fade(const FrameRange& stance, int step, int length, double hz) {
+    const int edge = step < 0 ? stance.first : stance.last;
+    const FootOffset value = offset(edge);
+    const int fitted = std::max(2, static_cast<int>(std::lround(kRateFit_s * hz)));
+    const FootOffset change =
+        rate(edge, step, std::min(fitted, stance.last - stance.first + 1));
+    const double rate_length = std::min(1.0 * length, kRateFade_s * hz);
+    for (int k = 1; k < length; ++k) {
+      const int frame = edge + k * step;
+      if (frame < 0 || frame >= static_cast<int>(before.size())) return;
+      const auto t = static_cast<std::size_t>(frame);
+      const double keep = 1.0 - retarget::smooth_step(static_cast<double>(k) / length);
+      const double x = std::min(1.0, k / rate_length);
+      const double x3 = x * x * x;
+      const double go = rate_length * (x - 6.0 * x3 + 8.0 * x3 * x - 3.0 * x3 * x * x);
+      if (!out[t]) out[t] = before[t];
+      FootPlace& place = *out[t];
+      place.ankle_in_world += keep * value.ankle + go * change.ankle;
+      place.foot = glm::normalize(
+          rotation_from_vector(keep * value.foot + go * change.foot) * place.foot);
+      place.toes = glm::normalize(
+          rotation_from_vector(keep * value.toes + go * change.toes) * place.toes);
     }
-    return 1.0;
   }
 };
 
-// Keeps the contacts of the planted stances alone.
-std::optional<NearStances> restrict_contacts(FootContacts& foot,
-                                             const FrameRange& zone,
-                                             double hz) {
-  const auto chosen = stances_near(foot.stance, zone, kMinFade_s * hz);
-  if (!chosen) {
-    foot.heel.clear();
-    foot.ball.clear();
-    foot.stance.clear();
-    foot.heel_up.clear();
-    return std::nullopt;
+// Places the foot in its planted stances and in the swings round them.
+std::vector<std::optional<FootPlace>> place_stances(
+    const std::vector<FrameRange>& stances,
+    const std::pair<std::size_t, std::size_t>& chosen,
+    double hz,
+    PlantedWay way) {
+  const int free_fade = static_cast<int>(std::ceil(kFreeFade_s * hz));
+  way.out.resize(way.before.size());
+  const auto [first, last] = chosen;
+  for (std::size_t k = first; k <= last; ++k) {
+    const FrameRange& run = stances[k];
+    for (int frame = run.first; frame <= run.last; ++frame) {
+      const auto t = static_cast<std::size_t>(frame);
+      way.out[t] = way.planned[t];
+    }
+    way.fade(run, -1, k > 0 ? run.first - stances[k - 1].last : free_fade, hz);
+    way.fade(run,
+             +1,
+             k + 1 < stances.size() ? stances[k + 1].first - run.last : free_fade,
+             hz);
   }
-  const auto [first, last] = *chosen;
-  NearStances out;
-  out.planted = {foot.stance[first].first, foot.stance[last].last};
-  const int fade = static_cast<int>(std::ceil(kFreeFade_s * hz));
-  out.fade_from = first > 0 ? foot.stance[first - 1].last : out.planted.first - fade;
-  out.fade_to = last + 1 < foot.stance.size() ? foot.stance[last + 1].first
-                                              : out.planted.last + fade;
-  for (auto* runs : {&foot.heel, &foot.ball, &foot.stance, &foot.heel_up}) {
-    *runs = runs_within(*runs, out.planted);
-  }
-  return out;
+  return way.out;
 }
 
-std::vector<retarget::NormalizedPose> level_poses(const EditState& state, double rise_m) {
-  std::vector<RigidTransform> joints(state.motion.skeleton.joints.size());
-  std::vector<retarget::NormalizedPose> out(state.motion.poses.size());
-  for (std::size_t t = 0; t < out.size(); ++t) {
-    world_from_joints(state.motion.skeleton, state.motion.poses[t], joints);
-    retarget::normalize(state.map, joints, out[t], retarget::RootNormalization::kNone);
-    out[t].root.y += rise_m;
-  }
-  return out;
+// The planar move that brings one footprint onto another one.
+RigidTransform print_move(const retarget::Footprint& from,
+                          const retarget::Footprint& to) {
+  const glm::dquat turn = glm::normalize(to.heading * glm::conjugate(from.heading));
+  return {turn, to.ankle_in_world - turn * from.ankle_in_world};
 }
 
-FootPlace between_places(const FootPlace& a, const FootPlace& b, double share) {
-  return {glm::mix(a.ankle_in_world, b.ankle_in_world, share),
-          glm::normalize(glm::slerp(a.foot, b.foot, share)),
-          glm::normalize(glm::slerp(a.toes, b.toes, share))};
+// Keeps the footprint of each stance within the zone as it is in the first frame there;
+// the rest of the stance moves along.
+void hold_prints(const std::vector<FootPlace>& level,
+                 const FootContacts& contacts,
+                 const FrameRange& zone,
+                 const retarget::FootMap& shape,
+                 FrameRate rate,
+                 std::vector<FootPlace>& planned) {
+  const auto heel = retarget::frame_marks(contacts.heel, level.size());
+  const auto ball = retarget::frame_marks(contacts.ball, level.size());
+  for (const FrameRange& run : contacts.stance) {
+    if (!overlaps(run, zone)) continue;
+    const auto prints = retarget::footprints({level, heel, ball}, run, shape, rate);
+    const auto print = [&](int frame) {
+      return prints[static_cast<std::size_t>(frame - run.first)];
+    };
+    const int held = std::max(run.first, zone.first);
+    for (int frame = held + 1; frame <= run.last; ++frame) {
+      const RigidTransform move =
+          print_move(print(std::min(frame, zone.last)), print(held));
+      FootPlace& place = planned[static_cast<std::size_t>(frame)];
+      place.ankle_in_world = move * place.ankle_in_world;
+      place.foot = move.rotation * place.foot;
+      place.toes = move.rotation * place.toes;
+    }
+  }
 }
 
-// Returns one foot where it is planted, fading to where it was.
-std::vector<std::optional<FootPlace>> faded_foot(const NearStances& near,
-                                                 const std::vector<FootPlace>& before,
-                                                 const std::vector<FootPlace>& planned) {
-  std::vector<std::optional<FootPlace>> out(before.size());
-  for (std::size_t t = 0; t < before.size(); ++t) {
-    const double share = near.share(static_cast<int>(t));
-    if (share > 0.0) out[t] = between_places(before[t], planned[t], share);
+// Returns one foot on its footprints in the stances near the zone.
+std::vector<std::optional<FootPlace>> planted_foot(const EditState& state,
+                                                   int side,
+                                                   const FrameRange& zone,
+                                                   const std::vector<FootPlace>& feet,
+                                                   double rise_m) {
+  const auto foot = static_cast<std::size_t>(side);
+  FootContacts contacts = state.contacts.feet[foot];
+  const std::vector<FrameRange> stances = contacts.stance;
+  const double hz = state.motion.rate.hz;
+  const auto chosen = stances_near(stances, zone, kMinFade_s * hz);
+  if (!chosen) return std::vector<std::optional<FootPlace>>(feet.size());
+  const FrameRange planted{stances[chosen->first].first, stances[chosen->second].last};
+  for (auto* runs :
+       {&contacts.heel, &contacts.ball, &contacts.stance, &contacts.heel_up}) {
+    *runs = runs_within(*runs, planted);
   }
-  return out;
+  const std::vector<FootPlace> before = foot_places(state, side);
+  std::vector<FootPlace> level = before;
+  for (const FrameRange& run : contacts.stance) {
+    std::copy(
+        feet.begin() + run.first, feet.begin() + run.last + 1, level.begin() + run.first);
+  }
+  for (FootPlace& place : level) place.ankle_in_world.y += rise_m;
+  auto planned = retarget::plan_foot_path(
+      level, contacts, state.map.feet[foot], state.map.leg_length_m, state.motion.rate);
+  hold_prints(level, contacts, zone, state.map.feet[foot], state.motion.rate, planned);
+  for (FootPlace& place : planned) place.ankle_in_world.y -= rise_m;
+  return place_stances(stances, *chosen, hz, {before, planned, {}});
 }
 
 FrameRange changed_frames(const PlannedFeet& feet) {
@@ -150,34 +242,30 @@ FrameRange changed_frames(const PlannedFeet& feet) {
 
 }  // namespace
 
-PlantNearReport plant_feet_near(EditState& state, const FrameRange& zone) {
+PlantNearReport plant_feet_near(EditState& state,
+                                const FrameRange& zone,
+                                const FootWays& feet) {
   MAREY_ASSERT(zone.first >= 0 && zone.first <= zone.last &&
                zone.last < state.frame_count());
-  retarget::Contacts contacts = state.contacts;
-  std::array<std::optional<NearStances>, 2> near;
-  for (std::size_t side = 0; side < 2; ++side) {
-    near[side] = restrict_contacts(contacts.feet[side], zone, state.motion.rate.hz);
-  }
   PlantNearReport report;
-  report.changed = {0, -1};
-  if (!near[0] && !near[1]) return report;
   const double rise_m =
       retarget::standing_rise_m(state.map, state.contacts, state.map, 1.0);
-  const auto poses = level_poses(state, rise_m);
-  const auto planned = retarget::plan_level_feet(
-      state.motion.skeleton, state.map, contacts, state.motion.rate, poses);
-  PlannedFeet feet;
-  for (std::size_t side = 0; side < 2; ++side) {
-    feet[side].resize(poses.size());
-    if (!near[side]) continue;
-    auto lowered = planned[side];
-    for (FootPlace& place : lowered) place.ankle_in_world.y -= rise_m;
-    feet[side] =
-        faded_foot(*near[side], foot_places(state, static_cast<int>(side)), lowered);
+  PlannedFeet planned;
+  for (int side = 0; side < 2; ++side) {
+    const auto& way = feet[static_cast<std::size_t>(side)];
+    MAREY_ASSERT(static_cast<int>(way.size()) == state.frame_count());
+    planned[static_cast<std::size_t>(side)] =
+        planted_foot(state, side, zone, way, rise_m);
   }
-  report.changed = changed_frames(feet);
-  report.plant = set_feet(state, feet);
+  report.changed = changed_frames(planned);
+  if (report.changed.first <= report.changed.last) {
+    report.plant = set_feet(state, planned);
+  }
   return report;
+}
+
+PlantNearReport plant_feet_near(EditState& state, const FrameRange& zone) {
+  return plant_feet_near(state, zone, {foot_places(state, 0), foot_places(state, 1)});
 }
 
 }  // namespace marey::edit

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "edit/state/edit_state.h"
 #include "edit/state/plant_feet.h"
 
 #include "core/base/frame_range.h"
+#include "retarget/feet/foot_place.h"
 
 namespace marey::edit {
 
@@ -15,12 +19,21 @@ struct PlantNearReport {
   FrameRange changed;  ///< Frames whose feet may have moved; last < first: none.
 };
 
+/// Places of both feet, left and right, one per frame.
+using FootWays = std::array<std::vector<retarget::FootPlace>, 2>;
+
 /// Makes the feet stand still as plant_feet() does, but only in the stances that touch
-/// the frames of `zone`. The displacement of a foot fades out over the swing before its
-/// first and after its last such stance, with continuous speed and acceleration; stances
-/// that follow within 0.15 s are planted too. Other stances keep their feet. Linear in
+/// the frames of `zone`, and in neighbours that follow within 0.15 s. The footprints are
+/// those of `feet` in these stances; its other frames have no effect. Within the zone a
+/// footprint does not turn, even if the foot does. The displacement of
+/// a foot at the edges of its stances fades out over the swings before and after (0.4 s
+/// if the foot does not stand there), with continuous speed and acceleration. Linear in
 /// frames.
-/// Precondition: the zone is within the motion.
+/// Precondition: the zone is within the motion; one place per frame.
+PlantNearReport plant_feet_near(EditState& state,
+                                const FrameRange& zone,
+                                const FootWays& feet);
+/// The same for feet that stand where they are.
 PlantNearReport plant_feet_near(EditState& state, const FrameRange& zone);
 
 }  // namespace marey::edit

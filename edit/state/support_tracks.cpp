@@ -73,9 +73,9 @@ struct PlacedSupport {
   }
 };
 
-/// Returns the rotation that is added to a foot in each frame. A flat support states it
-/// while it bears. It has C2 fades before and after that, also while the foot stands on
-/// its heel or ball only.
+/// Returns the rotation that is added to a foot in each frame: the rotation of a flat
+/// support while it bears, with C2 fades before and after it, also while the foot stands
+/// on its heel or ball only.
 std::vector<glm::dquat> added_turns(const std::vector<PlacedSupport>& supports,
                                     JointIndex joint,
                                     std::size_t frame_count,

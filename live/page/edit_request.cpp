@@ -38,8 +38,8 @@ bool is_bare_key(std::string_view key) {
          key.find_first_not_of(kLetters) == std::string_view::npos;
 }
 
-/// Writes the JSON of an operation as TOML. After a value that has no form in TOML,
-/// cause() says which.
+/// Writes the JSON of an operation as TOML. cause() describes a value that has no form in
+/// TOML.
 class OpText {
  public:
   /// Returns "[[op]]" and a line for each key.

@@ -27,6 +27,17 @@ set_tests_properties(
   tools/blender_agrees_on_glb_first_light
   PROPERTIES FIXTURES_REQUIRED sample_once SKIP_REGULAR_EXPRESSION "skipped:")
 
+# The sample recipes of edits, on the motion of the session.
+add_test(NAME app/sample_recipes_render
+  COMMAND ${CMAKE_COMMAND}
+    -D PROGRAM=$<TARGET_FILE:marey>
+    -D RECIPES=${PROJECT_SOURCE_DIR}/recordings/samples/edits
+    -D MOTION=${first_light}/once/walk/motion.npz
+    -D WORK=${first_light}/edits
+    -P ${CMAKE_CURRENT_SOURCE_DIR}/render_sample_recipes.cmake)
+set_tests_properties(app/sample_recipes_render PROPERTIES
+  FIXTURES_REQUIRED sample_once LABELS once)
+
 # The page on those results, and live, in a browser.
 if(NODE)
   add_test(NAME app/page_of_first_light

@@ -141,7 +141,7 @@ TEST(EditCommand, NamesFileAndLineOfAnOperationThatFails) {
   EXPECT_FALSE(fs::exists(folder / "out/a.npz"));
 }
 
-TEST(EditCommand, LooksForAMovedSourceBesideTheRecipe) {
+TEST(EditCommand, FindsAMovedSourceInTheFolderOfTheRecipe) {
   const EditFolder folder;
   folder.write_recipe("", "path = \"gone/walk.npz\"");
   EXPECT_EQ(folder.run().exit_code, 0);

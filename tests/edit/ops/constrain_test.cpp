@@ -248,7 +248,7 @@ TEST(ConstrainOp, SupportsFoundInAWalkHardlyMoveIt) {
   (void)done(scene, state);
   EXPECT_EQ(scene.figure("unmet"), 0.0);
   // Planting lowers the root where a leg is straighter than it allows.
-  EXPECT_LT(scene.figure("largest_mm"), 30.0);
+  EXPECT_LT(scene.figure("displaced_mm"), 30.0);
   EXPECT_LT(scene.figure("slide_mm"), 0.1);
 }
 

@@ -173,7 +173,7 @@ TEST(Cyclify, PlantsTheFeetOfTenCycles) {
 }
 
 TEST(Cyclify, JoinsAMotionThatGrows) {
-  // As cut, places jump, by more than 1 m/s at any rate. Of a smooth loop the estimate of
+  // As cut, places jump, by more than 1 m/s at any rate. In a smooth loop the estimate of
   // the jump is the error of the cubics, which falls with the rate.
   std::vector<double> jumps;
   for (const double hz : {120.0, 480.0}) {
@@ -206,7 +206,7 @@ TEST(Cyclify, AcceleratesAtTheSeamAsInside) {
       ++above;
     }
   }
-  // Of two frames chosen at random, one is above the 95th percentile in 10 % of cases.
+  // One of two frames chosen at random is above the 95th percentile in 10 % of cases.
   EXPECT_LE(above, kSeeds / 5);
 }
 
@@ -241,6 +241,38 @@ TEST(CloseCycle, RepeatsPlantedCyclesExactly) {
           << "seed " << seed << " frame " << k;
     }
   }
+}
+
+TEST(Cyclify, DoesNotMoveFeetThatStandThroughout) {
+  // Hips turn to and fro and come back three degrees further, on standing feet.
+  Motion motion = varied_walk({.duration_s = 3.0}).motion;
+  const Pose rest = rest_pose(motion.skeleton);
+  for (std::size_t t = 0; t < motion.poses.size(); ++t) {
+    const double cycles = static_cast<double>(t) / 66.0;
+    const double turn = 0.1 * std::sin(6.283185307 * cycles) + 0.05 * cycles;
+    motion.poses[t] = rest;
+    motion.poses[t].root_in_world.y -= 0.03;
+    motion.poses[t].parent_from_joint[0] = glm::angleAxis(turn, glm::dvec3(0, 1, 0));
+  }
+  auto state = make_edit_state(motion);
+  ASSERT_TRUE(state);
+  // The legs follow the hips: put the feet back to where they stood first.
+  for (auto& foot : state->contacts.feet) {
+    foot.heel = foot.ball = foot.stance = {{0, state->frame_count() - 1}};
+  }
+  plant_feet(*state);
+  CyclifyOp op;
+  op.from = AtFrame{40};
+  op.to = AtFrame{106};
+  op.cycles = 3;
+  const Looped loop = looped(*state, op);
+  ASSERT_TRUE(loop.state) << loop.state.error().message();
+  EXPECT_EQ(loop.figure("turn_deg"), 0.0);
+  EXPECT_EQ(loop.figure("travel_m"), 0.0);
+  EXPECT_LT(measure_slide(*loop.state).mean_cm_per_s, 0.01);
+  EXPECT_LT(largest_distance(joints_of(loop.state->motion, 0),
+                             joints_of(loop.state->motion, 132)),
+            1e-9);
 }
 
 TEST(Cyclify, RefusesHalfACycleWithItsFigures) {

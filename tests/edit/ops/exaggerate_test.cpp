@@ -17,12 +17,12 @@
 namespace marey::edit {
 namespace {
 
-constexpr int kFrames = 600;  // 10 s at 60 Hz.
+constexpr int kExaggerateFrames = 600;  // 10 s at 60 Hz.
 constexpr double kSwing_rad = 0.1;
 
 /// A standing adult whose left forearm swings at this frequency about one axis.
 Motion swinging(double hz) {
-  return standing_motion(kFrames, [hz](int frame, Pose& pose) {
+  return standing_motion(kExaggerateFrames, [hz](int frame, Pose& pose) {
     const double angle =
         kSwing_rad * std::sin(2.0 * std::numbers::pi * hz * frame / 60.0);
     pose.parent_from_joint[static_cast<std::size_t>(HumanBone::kLeftLowerArm)] =

@@ -37,7 +37,7 @@ EditState posed(OpScene<PoseOp> scene, const EditState& state) {
   return *std::move(out);
 }
 
-TEST(PoseOp, AKeyMovesTheHandExactlyToItsPlaceAndFades) {
+TEST(PoseOp, AKeyMovesTheHandExactlyToItsPlaceAndFadesAroundIt) {
   const EditState state = state_of(standing_motion(kFrames));
   const glm::dvec3 moved_m(0.1, 0.2, 0.15);
   OpScene<PoseOp> scene = pose_key(HumanBone::kLeftHand, moved_m);
@@ -111,7 +111,7 @@ TEST(PoseOp, ATargetBeyondTheArmIsReachedByTheWholeBody) {
     const glm::dvec3 bend = is[t + 1] - 2.0 * is[t] + is[t - 1];
     largest_m_per_s2 = std::max(largest_m_per_s2, glm::length(bend) * 3600.0);
   }
-  // A displacement of 0.74 m in 0.5 s has a peak of 5.8 s / T^2 = 17 m/s^2.
+  // A fade of 0.74 m in 0.5 s has a peak of 5.8 s / T^2 = 17 m/s^2.
   EXPECT_LT(largest_m_per_s2, 20.0);
 }
 

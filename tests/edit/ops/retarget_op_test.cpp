@@ -19,7 +19,7 @@
 namespace marey::edit {
 namespace {
 
-constexpr int kFrames = 240;
+constexpr int kRetargetFrames = 240;
 
 OpScene<RetargetOp> onto(const Skeleton& avatar) {
   OpScene<RetargetOp> scene(RetargetOp{"avatar.vrm", false});
@@ -28,9 +28,9 @@ OpScene<RetargetOp> onto(const Skeleton& avatar) {
 }
 
 EditState walk_with_supports() {
-  EditState state = state_of(testing::synthetic_walk(kFrames, 60.0).motion);
+  EditState state = state_of(testing::synthetic_walk(kRetargetFrames, 60.0).motion);
   state.uncertainty.assign(
-      kFrames,
+      kRetargetFrames,
       std::vector<JointUncertainty>(state.motion.skeleton.joints.size(),
                                     {0.01, Source::kMeasured, Source::kMeasured}));
   state.annotations.notes = {{"walk", 0.0, 1.0}};
@@ -48,7 +48,7 @@ TEST(RetargetOp, TheOwnBodyKeepsTheMotionAndItsConstraints) {
   const auto out = scene.run(apply_retarget, state);
   ASSERT_TRUE(out) << out.error().message();
   EXPECT_NEAR(scene.figure("scale"), 1.0, 1e-12);
-  for (int t = 0; t < kFrames; ++t) {
+  for (int t = 0; t < kRetargetFrames; ++t) {
     // Hips sink where a leg is straighter than retargeting allows.
     EXPECT_LT(pose_distance_m(out->motion, state.motion, t), 3e-2) << t;
   }
@@ -81,7 +81,7 @@ TEST(RetargetOp, FootprintsAreThoseOfTheAvatarAndSigmasAreScaled) {
   const auto adapted = now.run(apply_constrain, *out);
   ASSERT_TRUE(adapted) << adapted.error().message();
   EXPECT_EQ(now.figure("unmet"), 0.0);
-  EXPECT_LT(now.figure("largest_mm"), 0.1);
+  EXPECT_LT(now.figure("displaced_mm"), 0.1);
 }
 
 TEST(RetargetOp, AnAvatarThatWasNotReadIsRefusedWithTheNearestName) {

@@ -45,4 +45,18 @@ inline OpScene<SpliceOp> splice_scene(EditState next, SpliceOp op = {}) {
   return scene;
 }
 
+inline EditState walk_with_notes() {
+  EditState walk = splice_walk(0.02);
+  walk.annotations.notes = {{"walk", 0.0, 3.2}, {"clap", 1.5, 1.5}, {"clap", 2.5, 2.5}};
+  walk.annotations.curves = {{"gain", std::vector<double>(330, 0.1)}};
+  Constraint reach;
+  reach.id = "reach";
+  reach.point.segment = "leftHand";
+  reach.goal = DistanceToPoint{0.0, {0.3, 1.1, 2.0}};
+  reach.activation.start_s = 1.0;
+  reach.activation.stop_s = 2.0;
+  walk.constraints.constraints = {reach};
+  return walk;
+}
+
 }  // namespace marey::edit

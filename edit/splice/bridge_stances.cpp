@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "edit/splice/bridge_stances.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "edit/state/plant_feet.h"
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "core/transform.h"
+
+namespace marey::edit {
+namespace {
+
+using retarget::FootPlace;
+
+// A turn about the vertical through a point of the foot, and a shift on the floor.
+struct FootMove {
+  glm::dvec3 pivot_in_world{0.0};
+  double turn_rad = 0.0;
+  glm::dvec3 shift_m{0.0};
+
+  [[nodiscard]] FootPlace moved(const FootPlace& place) const {
+    const glm::dquat turn = glm::angleAxis(turn_rad, glm::dvec3(0.0, 1.0, 0.0));
+    return {pivot_in_world + turn * (place.ankle_in_world - pivot_in_world) + shift_m,
+            turn * place.foot,
+            turn * place.toes};
+  }
+};
+
+// The point between ankle and toe joint.
+glm::dvec3 sole_of(const FootPlace& place, const retarget::FootMap& foot) {
+  return place.ankle_in_world + 0.5 * (place.foot * foot.ball_from_ankle_in_t_pose);
+}
+
+bool stands_at(const retarget::FootContacts& foot, int frame) {
+  return std::any_of(foot.stance.begin(), foot.stance.end(), [&](const FrameRange& run) {
+    return run.first <= frame && frame <= run.last;
+  });
+}
+
+double turn_between(const glm::dquat& a, const glm::dquat& b) {
+  const glm::dquat turn = twist_about(b * glm::conjugate(a), glm::dvec3(0.0, 1.0, 0.0));
+  return 2.0 * std::atan2(turn.y, turn.w);
+}
+
+// One foot of both motions in the overlap.
+struct OverlapFeet {
+  std::vector<FootPlace> first;   // One per frame of the first motion.
+  std::vector<FootPlace> second;  // Place in the second motion.
+  const retarget::FootMap& shape;
+};
+
+struct BridgeMoves {
+  FootMove first;
+  FootMove second;
+};
+
+// The moves of both sides that bring their mean places in the overlap together.
+BridgeMoves halves_of_gap(const OverlapFeet& feet,
+                          const std::vector<std::size_t>& entries,
+                          const JoinFrames& frames) {
+  glm::dvec3 a(0.0);
+  glm::dvec3 b(0.0);
+  double turn = 0.0;
+  for (const std::size_t k : entries) {
+    const FootPlace& from = feet.first[static_cast<std::size_t>(frames.start) + k];
+    const FootPlace& to = feet.second[k];
+    a += sole_of(from, feet.shape);
+    b += sole_of(to, feet.shape);
+    const double whole = 6.283185307179586477;
+    turn += std::remainder(turn_between(from.foot, to.foot), whole);
+  }
+  const auto count = static_cast<double>(entries.size());
+  a /= count;
+  b /= count;
+  turn /= count;
+  const glm::dvec3 half = 0.5 * glm::dvec3(b.x - a.x, 0.0, b.z - a.z);
+  return {{a, 0.5 * turn, half}, {b, -0.5 * turn, -half}};
+}
+
+// Entries of the overlap in which the foot bears in both motions; the join if there are
+// none.
+std::vector<std::size_t> common_entries(const retarget::FootContacts& first,
+                                        const retarget::FootContacts& second,
+                                        const JoinFrames& frames) {
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < frames.weight.size(); ++k) {
+    const int frame = static_cast<int>(k);
+    if (stands_at(first, frames.start + frame) && stands_at(second, frame)) {
+      out.push_back(k);
+    }
+  }
+  if (out.empty()) out.push_back(static_cast<std::size_t>(frames.join - frames.start));
+  return out;
+}
+
+FootPlace mixed_place(const FootPlace& a, const FootPlace& b, double share) {
+  return {glm::mix(a.ankle_in_world, b.ankle_in_world, share),
+          glm::normalize(glm::slerp(a.foot, b.foot, share)),
+          glm::normalize(glm::slerp(a.toes, b.toes, share))};
+}
+
+// Place of the foot in a stance across the join.
+void bridge_stance(const OverlapFeet& feet,
+                   const BridgeMoves& moves,
+                   const FrameRange& stance,
+                   const JoinFrames& frames,
+                   std::vector<FootPlace>& way) {
+  const int end = frames.start + static_cast<int>(frames.weight.size()) - 1;
+  for (int t = stance.first; t <= stance.last; ++t) {
+    FootPlace& place = way[static_cast<std::size_t>(t)];
+    if (t < frames.start) {
+      place = moves.first.moved(feet.first[static_cast<std::size_t>(t)]);
+      continue;
+    }
+    const auto k = static_cast<std::size_t>(t - frames.start);
+    place = moves.second.moved(feet.second[k]);
+    if (t > end) continue;
+    place = mixed_place(moves.first.moved(feet.first[static_cast<std::size_t>(t)]),
+                        place,
+                        frames.weight[k]);
+  }
+}
+
+void place_foot(const OverlapFeet& feet,
+                const std::array<const retarget::FootContacts*, 2>& own,
+                const std::vector<FrameRange>& stances,
+                const JoinFrames& frames,
+                std::vector<FootPlace>& way) {
+  const int after = frames.join + 1;
+  const bool both_stand =
+      stands_at(*own[0], frames.join) && stands_at(*own[1], after - frames.start);
+  for (const FrameRange& stance : stances) {
+    const bool crosses = stance.first <= frames.join && stance.last >= after;
+    if (crosses && both_stand) {
+      const auto entries = common_entries(*own[0], *own[1], frames);
+      bridge_stance(feet, halves_of_gap(feet, entries, frames), stance, frames, way);
+      continue;
+    }
+    // A stance of one motion may reach a little beyond the join (join_contacts()).
+    const bool is_first =
+        crosses ? stands_at(*own[0], frames.join) : stance.last <= frames.join;
+    for (int t = stance.first; t <= stance.last; ++t) {
+      way[static_cast<std::size_t>(t)] =
+          is_first ? feet.first[static_cast<std::size_t>(t)]
+                   : feet.second[static_cast<std::size_t>(t - frames.start)];
+    }
+  }
+}
+
+}  // namespace
+
+FootWays bridge_stances(const EditState& first,
+                        const EditState& second,
+                        const JoinFrames& frames,
+                        const EditState& out) {
+  FootWays ways{foot_places(out, 0), foot_places(out, 1)};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const int foot = static_cast<int>(side);
+    const OverlapFeet feet{
+        foot_places(first, foot), foot_places(second, foot), out.map.feet[side]};
+    place_foot(feet,
+               {&first.contacts.feet[side], &second.contacts.feet[side]},
+               out.contacts.feet[side].stance,
+               frames,
+               ways[side]);
+  }
+  return ways;
+}
+
+}  // namespace marey::edit
