@@ -24,7 +24,7 @@ constexpr double kFade_s = 0.08;  // Half of the fade: smooth_cover() reaches tw
 constexpr double kLower_s = 0.1;  // The root is lowered this long before.
 constexpr double kMaxExtension =
     0.999;  // Maximum extension of a leg, unless it was straighter before.
-constexpr double kUnmoved_m = 1e-12;
+constexpr double kHeldRounding_m = 1e-12;
 
 /// Target of one foot in one frame, and the longest leg that may reach it.
 struct HeldFoot {
@@ -160,7 +160,7 @@ class FeetHolder {
       rotation = turned_towards(
           rotation, before_.poses[t].parent_from_joint[index(*joint)], kept_[s][t]);
     }
-    if (kept_[s][t] * missed_m <= report.missed_m + kUnmoved_m) return;
+    if (kept_[s][t] * missed_m <= report.missed_m + kHeldRounding_m) return;
     report.missed_m = kept_[s][t] * missed_m;
     report.missed_frame = frame;
   }
