@@ -34,13 +34,17 @@ AtAnnotation read_annotation(TomlReader& in, std::string_view key) {
     const char* const last = at.text.data() + at.text.size() - 1;
     const bool is_digits =
         std::all_of(first, last, [](char c) { return c >= '0' && c <= '9'; });
-    const auto [end, problem] = std::from_chars(first, last, at.occurrence);
-    if (is_digits && (problem != std::errc{} || at.occurrence > kMaxOccurrence)) {
+    int number = 0;
+    const auto [end, problem] = std::from_chars(first, last, number);
+    if (is_digits && (problem != std::errc{} || number > kMaxOccurrence)) {
       in.fail(key,
               in_quotes(key) + " has a number above 1000000 in brackets",
               "give the number of the occurrence, counted from 0");
     }
-    if (is_digits) at.text.resize(open);
+    if (is_digits) {
+      at.occurrence = number;
+      at.text.resize(open);
+    }
   }
   const bool is_line = std::none_of(at.text.begin(), at.text.end(), is_control);
   if (at.text.empty() || !is_line || at.text.size() > kMaxNameBytes) {

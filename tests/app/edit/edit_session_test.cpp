@@ -180,6 +180,42 @@ TEST(EditSession, UndoesAndRedoesAsNewRevisions) {
   EXPECT_EQ(edit.reports.frames, 61);
 }
 
+TEST(EditSession, UndoesAndRedoes500RandomGestures) {
+  OpenedEdit edit;
+  edit.open();
+  const std::string first = edit.session->revision().sha256;
+  std::uint64_t state = 5;
+  const auto below = [&state](std::size_t limit) {
+    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+    return static_cast<int>((state >> 33U) % limit);
+  };
+  using Kind = live::OpsPatchStep::Kind;
+  const std::vector<std::string> ops{"do = \"mirror@1\"\n",
+                                     "do = \"tag@1\"\ntext = \"gänge\"\n",
+                                     "do = \"cut@1\"\nfrom_frame = 1\n",
+                                     "do = \"plant@1\"\noff = true\n"};
+  for (int i = 0; i < 500; ++i) {
+    const std::size_t count = edit.session->recipe().ops.size();
+    live::OpsPatchStep step =
+        inserted(below(count + 1), ops[static_cast<std::size_t>(i) % ops.size()]);
+    if (count >= 12 || (count > 0 && below(2) == 0)) {
+      step.kind = static_cast<Kind>(1 + below(4));
+      step.index = below(count);
+      step.to = below(count);
+      step.off = below(2) == 0;
+    }
+    ASSERT_EQ(changed(edit, {step}), i + 2);
+  }
+  const std::string last = edit.session->revision().sha256;
+  for (int i = 0; i < 500; ++i) (void)edit.session->undo({edit.number()});
+  EXPECT_EQ(edit.session->revision().sha256, first);
+  EXPECT_FALSE(edit.session->can_undo());
+  edit.open();
+  for (int i = 0; i < 500; ++i) (void)edit.session->redo({edit.number()});
+  EXPECT_EQ(edit.session->revision().sha256, last);
+  EXPECT_EQ(edit.number(), 1501);
+}
+
 TEST(EditSession, AppliesStepsInTheirOrder) {
   OpenedEdit edit;
   edit.open();

@@ -180,6 +180,14 @@ TEST(EditRecipeFile, ReadsEveryKeyOfTimes) {
   EXPECT_TRUE(cyclify.force);
 }
 
+TEST(EditRecipeFile, BracketsWithoutAWholeNumberBelongToTheName) {
+  for (const char* const text : {"left.strike[-12]", "left.strike[2x]", "a[]", "a[ 1]"}) {
+    const auto event =
+        op_of<EventOp>("\"event@1\"\ntext = \"e\"\nat = \"" + std::string(text) + "\"\n");
+    EXPECT_EQ(event.at, Moment(AtAnnotation{text, 0}));
+  }
+}
+
 TEST(EditRecipeFile, ReadsEveryKeyOfContacts) {
   const auto contacts = op_of<ContactsOp>(
       "\"contacts@1\"\ndetect = true\nedits = [\n"
