@@ -207,6 +207,34 @@ TEST(Splice, StanceWithAGapAtTheJoinHasOneFootprint) {
   EXPECT_LT(worst_slide(*joined, {at - 12, at + 12}), 1e-4 /* m/s */);
 }
 
+// The arm of the second motion swings past half a turn from that of the first one. Mixed
+// the shorter way frame by frame, it would change sides within one frame.
+TEST(Splice, RotationsHalfATurnApartAreMixedOneWayRound) {
+  const EditState first = splice_walk();
+  EditState second = as_source(first, {0, 329}, 1);
+  const std::size_t arm = index(*first.motion.skeleton.find(HumanBone::kLeftUpperArm));
+  for (std::size_t t = 0; t < second.motion.poses.size(); ++t) {
+    const double angle_rad = 3.14159 + 0.02 * (static_cast<double>(t) - 90.0);
+    glm::dquat& q = second.motion.poses[t].parent_from_joint[arm];
+    q = q * rotation_from_vector({angle_rad, 0.0, 0.0});
+  }
+  SpliceOp op;
+  op.at = AtFrame{200};
+  op.enter_at = AtFrame{90};
+  auto scene = splice_scene(second, op);
+  const auto joined = scene.run(apply_splice, first);
+  ASSERT_TRUE(joined);
+  for (std::size_t t = 180; t < 220; ++t) {
+    const glm::dquat step =
+        glm::conjugate(joined->motion.poses[t].parent_from_joint[arm]) *
+        joined->motion.poses[t + 1].parent_from_joint[arm];
+    // Half a turn over 30 frames with weights that change by 1/16 a frame at most.
+    EXPECT_LT(glm::length(rotation_vector(std::abs(step.w) == step.w ? step : -step)),
+              0.3)
+        << t;
+  }
+}
+
 // Both one-sided velocities at the join agree up to the accelerations of the motion.
 TEST(Splice, WithoutAnOverlapValuesAndVelocitiesMeet) {
   const EditState first = splice_walk();
