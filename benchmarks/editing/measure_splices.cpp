@@ -4,6 +4,7 @@
 // Measures splices of captured motions against crossfades.
 //
 //   measure_splices ../shared/data/mocap [--pairs]
+//   measure_splices --clips FILE... [--pairs]
 //
 // Joins each of seven clips (walk, run, punch, kick, dance of CMU and Bandai Namco) to
 // each other one: 42 ordered pairs. The second clip is brought to the first one's rate
@@ -23,7 +24,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -41,6 +41,7 @@
 #include "benchmarks/editing/splice_figures.h"
 #include "benchmarks/parts/captured_clips.h"
 #include "benchmarks/parts/result_table.h"
+#include "core/base/format_text.h"
 #include "retarget/contacts/frame_marks.h"
 #include "retarget/contacts/measure_contacts.h"
 
@@ -111,6 +112,10 @@ struct Measured {
   double slow_slide = 0.0;    ///< [cm/s], second label
   double clip_slide = 0.0;    ///< [cm/s], second label, the clips' own
   double acceleration = 0.0;  ///< Over the clips'.
+  Peak fastest;
+  Peak hardest;
+  int join = 0;
+  double hz = 0.0;
   std::string cause;
 };
 
@@ -154,21 +159,29 @@ Measured measure(const Joined& joined, const PairOfClips& pair) {
   const Slide slide =
       slide_of(joined, pair.a.map, {&pair.labels[0].contacts, &pair.labels[1].contacts});
   out.slide = slide.cm_per_s(hz);
-  out.worst = 100.0 * slide.worst_m * hz;
+  out.worst = 100.0 * slide.worst.value * hz;
+  out.fastest = slide.worst;
+  out.join = joined.join;
+  out.hz = hz;
   out.slow_slide =
       slide_of(joined, pair.a.map, {&pair.labels[0].slow, &pair.labels[1].slow})
           .cm_per_s(hz);
   out.clip_slide = own_slow_slide(joined, pair);
-  out.acceleration =
-      peak_acceleration(joined.motion, joined.join - near, joined.join + near) /
-      pair.peak;
+  out.hardest = peak_acceleration(joined.motion, joined.join - near, joined.join + near);
+  out.acceleration = out.hardest.value / pair.peak;
   return out;
 }
 
 std::string cause_of(const Measured& m, const edit::OpReport& report) {
   std::string out;
-  if (m.slide > kSlideBar_cm_per_s) out += "slide ";
-  if (m.acceleration > kAccelerationBar) out += "acceleration ";
+  const auto place = [&](const char* what, const Peak& peak) {
+    return format_text("%s of %s %+.2f s from the join; ",
+                       what,
+                       peak.joint.c_str(),
+                       (peak.frame - m.join) / m.hz);
+  };
+  if (m.slide > kSlideBar_cm_per_s) out += place("slide", m.fastest);
+  if (m.acceleration > kAccelerationBar) out += place("acceleration", m.hardest);
   if (out.empty()) return out;
   for (const Finding& finding : report.findings) {
     if (finding.id != "candidates") out += "[" + finding.id + "] ";
@@ -211,6 +224,20 @@ void add_summary(const std::string& method,
                         static_cast<double>(within)});
 }
 
+// Adds a clip unless it cannot be read, which is reported.
+void add_clip(const std::filesystem::path& file,
+              const std::string& name,
+              std::vector<Clip>& out) {
+  const auto clip = read_clip(file, name);
+  if (!clip) {
+    std::fprintf(stderr, "%s\n", clip.error().message().c_str());
+    return;
+  }
+  auto state =
+      edit::make_edit_state({clip->character.skeleton, {clip->rate_hz}, 0, clip->poses});
+  if (state) out.push_back({name, *std::move(state)});
+}
+
 std::vector<Clip> read_seven(const std::filesystem::path& mocap) {
   std::vector<Clip> out;
   for (const auto& [name, path] :
@@ -221,14 +248,7 @@ std::vector<Clip> read_seven(const std::filesystem::path& mocap) {
         std::pair{"walk Bandai", "bandai/dataset-1_walk_normal_001.bvh"},
         std::pair{"kick Bandai", "bandai/dataset-1_kick_normal_001.bvh"},
         std::pair{"dance Bandai", "bandai/dataset-1_dance-short_normal_001.bvh"}}) {
-    const auto clip = read_clip(mocap / path, name);
-    if (!clip) {
-      std::fprintf(stderr, "%s\n", clip.error().message().c_str());
-      continue;
-    }
-    auto state = edit::make_edit_state(
-        {clip->character.skeleton, {clip->rate_hz}, 0, clip->poses});
-    if (state) out.push_back({name, *std::move(state)});
+    add_clip(mocap / path, name, out);
   }
   return out;
 }
@@ -291,8 +311,7 @@ void print_pairs(const char* method, const std::vector<Measured>& all) {
   }
 }
 
-int run(const std::filesystem::path& mocap, bool has_pairs) {
-  const std::vector<Clip> clips = read_seven(mocap);
+int run(const std::vector<Clip>& clips, bool has_pairs) {
   std::mt19937 random(7);
   Results results;
   for (const Clip& a : clips) {
@@ -302,8 +321,9 @@ int run(const std::filesystem::path& mocap, bool has_pairs) {
       if (!second) continue;
       PairOfClips pair{a.name + " - " + b.name, a.state, *second, {}, 0.0};
       pair.labels = {labels_of(pair.a), labels_of(pair.b)};
-      pair.peak = std::max(peak_acceleration(pair.a.motion, 0, pair.a.frame_count()),
-                           peak_acceleration(pair.b.motion, 0, pair.b.frame_count()));
+      pair.peak =
+          std::max(peak_acceleration(pair.a.motion, 0, pair.a.frame_count()).value,
+                   peak_acceleration(pair.b.motion, 0, pair.b.frame_count()).value);
       measure_pair(pair, random, results);
     }
   }
@@ -349,10 +369,20 @@ int run(const std::filesystem::path& mocap, bool has_pairs) {
 }  // namespace marey
 
 int main(int argc, char** argv) {
-  const bool has_pairs = argc == 3 && std::strcmp(argv[2], "--pairs") == 0;
-  if (argc != 2 && !has_pairs) {
-    std::fprintf(stderr, "usage: measure_splices MOCAP_FOLDER [--pairs]\n");
+  std::vector<std::string> words(argv + 1, argv + argc);
+  const bool has_pairs = std::erase(words, "--pairs") > 0;
+  std::vector<marey::Clip> clips;
+  if (words.size() > 1 && words.front() == "--clips") {
+    for (std::size_t k = 1; k < words.size(); ++k) {
+      marey::add_clip(words[k], std::filesystem::path(words[k]).stem().string(), clips);
+    }
+  } else if (words.size() == 1) {
+    clips = marey::read_seven(words.front());
+  } else {
+    std::fprintf(stderr,
+                 "usage: measure_splices MOCAP_FOLDER [--pairs]\n"
+                 "       measure_splices --clips FILE... [--pairs]\n");
     return 2;
   }
-  return marey::run(argv[1], has_pairs);
+  return marey::run(clips, has_pairs);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "edit/find/find_splice.h"
@@ -53,19 +54,29 @@ inline Places joint_places(const Motion& motion) {
   return out;
 }
 
-inline double peak_acceleration(const Motion& motion, int first, int last) {
+/// A largest value, and its place.
+struct Peak {
+  double value = 0.0;
+  std::string joint;
+  int frame = 0;
+};
+
+/// Returns the largest acceleration of a bone's joint. [m/s^2]
+inline Peak peak_acceleration(const Motion& motion, int first, int last) {
   const Places places = joint_places(motion);
-  double peak = 0.0;
+  Peak peak;
   const int end = static_cast<int>(places.size()) - 2;
   for (int t = std::max(first, 1); t <= std::min(last, end); ++t) {
     const auto k = static_cast<std::size_t>(t);
     for (std::size_t j = 0; j < places[k].size(); ++j) {
-      if (!motion.skeleton.joints[j].bone) continue;
+      const auto bone = motion.skeleton.joints[j].bone;
+      if (!bone) continue;
       const glm::dvec3 change = places[k + 1][j] - 2.0 * places[k][j] + places[k - 1][j];
-      peak = std::max(peak, glm::length(change));
+      const double size = glm::length(change) * motion.rate.hz * motion.rate.hz;
+      if (size > peak.value) peak = {size, std::string(name(*bone)), t};
     }
   }
-  return peak * motion.rate.hz * motion.rate.hz;
+  return peak;
 }
 
 /// Frames in which each contact point bears: per point of retarget::kContactBones.
@@ -93,15 +104,15 @@ inline ClipLabels labels_of(const EditState& state) {
 struct Slide {
   double way_m = 0.0;
   int steps = 0;
-  double worst_m = 0.0;
+  Peak worst;  ///< [m] per frame
   [[nodiscard]] double cm_per_s(double hz) const {
     return steps == 0 ? 0.0 : 100.0 * way_m / steps * hz;
   }
 };
 
-Slide slide_of(const Joined& joined,
-               const retarget::BodyMap& map,
-               const std::array<const Labels*, 2>& labels) {
+inline Slide slide_of(const Joined& joined,
+                      const retarget::BodyMap& map,
+                      const std::array<const Labels*, 2>& labels) {
   Slide out;
   const Places places = joint_places(joined.motion);
   const auto bears = [&](std::size_t point, std::size_t t) {
@@ -118,7 +129,9 @@ Slide slide_of(const Joined& joined,
       const glm::dvec3 step = places[t][index(*joint)] - places[t - 1][index(*joint)];
       const double way_m = std::hypot(step.x, step.z);
       out.way_m += way_m;
-      out.worst_m = std::max(out.worst_m, way_m);
+      if (way_m > out.worst.value) {
+        out.worst = {way_m, std::string(name(retarget::kContactBones[point])), frame};
+      }
       ++out.steps;
     }
   }

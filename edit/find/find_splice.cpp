@@ -3,6 +3,7 @@
 #include "edit/find/find_splice.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
@@ -47,17 +48,24 @@ PlanarMatch match_in_place(const MatchPoints& a,
   return match;
 }
 
-std::vector<SupportClass> support_classes(const retarget::Contacts& contacts) {
+// Frames in which each foot stands.
+using StanceMarks = std::array<std::vector<char>, 2>;
+
+StanceMarks marks_of_stances(const retarget::Contacts& contacts) {
   const auto count = static_cast<std::size_t>(contacts.frame_count);
-  const auto left = retarget::frame_marks(contacts.feet[0].stance, count);
-  const auto right = retarget::frame_marks(contacts.feet[1].stance, count);
-  std::vector<SupportClass> out(count, SupportClass::kNone);
-  for (std::size_t t = 0; t < count; ++t) {
-    if (left[t] != 0) out[t] = SupportClass::kLeft;
-    if (right[t] == 0) continue;
-    out[t] = left[t] != 0 ? SupportClass::kBoth : SupportClass::kRight;
-  }
-  return out;
+  return {retarget::frame_marks(contacts.feet[0].stance, count),
+          retarget::frame_marks(contacts.feet[1].stance, count)};
+}
+
+SupportClass class_of(bool left, bool right) {
+  if (left && right) return SupportClass::kBoth;
+  if (left) return SupportClass::kLeft;
+  return right ? SupportClass::kRight : SupportClass::kNone;
+}
+
+SupportClass class_at(const StanceMarks& marks, int frame) {
+  const auto t = static_cast<std::size_t>(frame);
+  return class_of(marks[0][t] != 0, marks[1][t] != 0);
 }
 
 double floor_of(const EditState& state) {
@@ -72,8 +80,9 @@ class SpliceSearch {
                const FindSpliceOptions& options)
       : a_(match_points(first.motion, first.map)),
         b_(match_points(second.motion, second.map)),
-        supports_a_(support_classes(first.contacts)),
-        supports_b_(support_classes(second.contacts)),
+        stands_a_(marks_of_stances(first.contacts)),
+        stands_b_(marks_of_stances(second.contacts)),
+        hz_(first.motion.rate.hz),
         options_(options) {
     if (!options.align) return;
     // Motions are compared above their own floors.
@@ -86,10 +95,14 @@ class SpliceSearch {
     for (int i = windows.leave.last; i >= windows.leave.first; i -= step) {
       for (int j = windows.enter.first; j <= windows.enter.last; j += step) {
         if (!accepts(i, j)) continue;
-        out.push_back({i,
-                       j,
-                       options_.align ? match_windows(a_, i, b_, j, options_.match)
-                                      : match_in_place(a_, i, b_, j, options_.match)});
+        SpliceCandidate pair;
+        pair.leave = i;
+        pair.enter = j;
+        pair.match = options_.align ? match_windows(a_, i, b_, j, options_.match)
+                                    : match_in_place(a_, i, b_, j, options_.match);
+        pair.unlike_s = unlike_s(i, j);
+        pair.cost_m = pair.match.distance_m + options_.unlike_m_per_s * pair.unlike_s;
+        out.push_back(pair);
       }
     }
   }
@@ -97,14 +110,30 @@ class SpliceSearch {
  private:
   [[nodiscard]] bool accepts(int i, int j) const {
     return options_.allow_opposed ||
-           !supports_oppose(supports_a_[static_cast<std::size_t>(i)],
-                            supports_b_[static_cast<std::size_t>(j)]);
+           !supports_oppose(class_at(stands_a_, i), class_at(stands_b_, j));
+  }
+  [[nodiscard]] double unlike_s(int i, int j) const {
+    const int around = static_cast<int>(std::lround(options_.around_s * hz_));
+    const int before = std::min({around, i, j});
+    const int after =
+        std::min({around, a_.frame_count() - 1 - i, b_.frame_count() - 1 - j});
+    int count = 0;
+    for (std::size_t side = 0; side < 2; ++side) {
+      for (int k = -before; k <= after; ++k) {
+        if (stands_a_[side][static_cast<std::size_t>(i + k)] !=
+            stands_b_[side][static_cast<std::size_t>(j + k)]) {
+          ++count;
+        }
+      }
+    }
+    return count / hz_;
   }
 
   MatchPoints a_;
   MatchPoints b_;
-  std::vector<SupportClass> supports_a_;
-  std::vector<SupportClass> supports_b_;
+  StanceMarks stands_a_;
+  StanceMarks stands_b_;
+  double hz_;
   const FindSpliceOptions& options_;
 };
 
@@ -112,15 +141,12 @@ class SpliceSearch {
 constexpr double kSameCost_m = 1e-5;
 
 void sort_by_cost(std::vector<SpliceCandidate>& candidates) {
-  std::sort(
-      candidates.begin(),
-      candidates.end(),
-      [](const SpliceCandidate& x, const SpliceCandidate& y) {
-        return std::tuple(
-                   std::llround(x.match.distance_m / kSameCost_m), -x.leave, x.enter) <
-               std::tuple(
-                   std::llround(y.match.distance_m / kSameCost_m), -y.leave, y.enter);
-      });
+  std::sort(candidates.begin(),
+            candidates.end(),
+            [](const SpliceCandidate& x, const SpliceCandidate& y) {
+              return std::tuple(std::llround(x.cost_m / kSameCost_m), -x.leave, x.enter) <
+                     std::tuple(std::llround(y.cost_m / kSameCost_m), -y.leave, y.enter);
+            });
 }
 
 bool is_near(const SpliceCandidate& x, const SpliceCandidate& y, double frames) {
@@ -156,11 +182,8 @@ bool contains_frame(const std::vector<FrameRange>& runs, int frame) {
 
 SupportClass support_class(const retarget::Contacts& contacts, int frame) {
   MAREY_ASSERT(frame >= 0 && frame < contacts.frame_count);
-  const bool left = contains_frame(contacts.feet[0].stance, frame);
-  const bool right = contains_frame(contacts.feet[1].stance, frame);
-  if (left && right) return SupportClass::kBoth;
-  if (left) return SupportClass::kLeft;
-  return right ? SupportClass::kRight : SupportClass::kNone;
+  return class_of(contains_frame(contacts.feet[0].stance, frame),
+                  contains_frame(contacts.feet[1].stance, frame));
 }
 
 bool supports_oppose(SupportClass a, SupportClass b) {

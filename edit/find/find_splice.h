@@ -32,10 +32,18 @@ struct SpliceCandidate {
   int leave = 0;  ///< In the first motion.
   int enter = 0;  ///< In the second motion.
   PlanarMatch match;
+  /// Time in which a foot bears in one motion and swings in the other, of both feet,
+  /// within FindSpliceOptions::around_s of the pair. [s]
+  double unlike_s = 0.0;
+  double cost_m = 0.0;  ///< match.distance_m + unlike_m_per_s * unlike_s.
 };
 
 struct FindSpliceOptions {
   MatchOptions match;
+  double around_s = 0.15;  ///< Half of the time in which contacts are compared.
+  /// Cost of unlike contacts: the weights of distances are masses, in which a foot that
+  /// stands and one that swings hardly differ. [m/s]
+  double unlike_m_per_s = 0.3;
   bool align = true;  ///< False: the second motion is not moved, its place counts.
   /// Pairs that stand on opposite feet are accepted.
   bool allow_opposed = false;
@@ -46,7 +54,8 @@ struct FindSpliceOptions {
 
 /// Returns the best pairs of frames for a transition, by cost: the weighted difference of
 /// joints and of their velocities over five frames round each, after the best planar move
-/// (Kovar, Gleicher and Pighin, "Motion graphs", 2002; match_windows()). With equal costs
+/// (Kovar, Gleicher and Pighin, "Motion graphs", 2002; match_windows()), plus a cost of
+/// unlike contacts of the feet round them. With equal costs
 /// the later `leave` comes first. Pairs that stand on opposite feet are left out; the
 /// result is empty if there are no others. Windows with more than 40 000 pairs are
 /// searched on a grid, whose best places are then searched frame by frame. Cost: some

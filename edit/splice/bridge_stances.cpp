@@ -14,11 +14,15 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/transform.h"
+#include "retarget/base/smooth_step.h"
 
 namespace marey::edit {
 namespace {
 
 using retarget::FootPlace;
+
+// Time before and after a join without an overlap in which a foot changes its tilt. [s]
+constexpr double kTiltFade_s = 0.15;
 
 // A turn about the vertical through a point of the foot, and a shift on the floor.
 struct FootMove {
@@ -42,6 +46,12 @@ glm::dvec3 sole_of(const FootPlace& place, const retarget::FootMap& foot) {
 bool stands_at(const retarget::FootContacts& foot, int frame) {
   return std::any_of(foot.stance.begin(), foot.stance.end(), [&](const FrameRange& run) {
     return run.first <= frame && frame <= run.last;
+  });
+}
+
+bool stands_within(const retarget::FootContacts& foot, const FrameRange& frames) {
+  return std::any_of(foot.stance.begin(), foot.stance.end(), [&](const FrameRange& run) {
+    return std::max(run.first, frames.first) <= std::min(run.last, frames.last);
   });
 }
 
@@ -107,12 +117,12 @@ FootPlace mixed_place(const FootPlace& a, const FootPlace& b, double share) {
           glm::normalize(glm::slerp(a.toes, b.toes, share))};
 }
 
-// Place of the foot in a stance across the join.
-void bridge_stance(const OverlapFeet& feet,
-                   const BridgeMoves& moves,
-                   const FrameRange& stance,
-                   const JoinFrames& frames,
-                   std::vector<FootPlace>& way) {
+// Place of the foot in a stance across an overlap.
+void bridge_overlap(const OverlapFeet& feet,
+                    const BridgeMoves& moves,
+                    const FrameRange& stance,
+                    const JoinFrames& frames,
+                    std::vector<FootPlace>& way) {
   const int end = frames.start + static_cast<int>(frames.weight.size()) - 1;
   for (int t = stance.first; t <= stance.last; ++t) {
     FootPlace& place = way[static_cast<std::size_t>(t)];
@@ -129,24 +139,63 @@ void bridge_stance(const OverlapFeet& feet,
   }
 }
 
+// Place of the foot in a stance across a join without an overlap. The rest of the
+// gap after the moves on the floor, height and tilt, fades on both sides, half of it
+// each.
+void bridge_gap(const OverlapFeet& feet,
+                const BridgeMoves& moves,
+                const FrameRange& stance,
+                const JoinFrames& frames,
+                double fade_frames,
+                std::vector<FootPlace>& way) {
+  const FootPlace a =
+      moves.first.moved(feet.first[static_cast<std::size_t>(frames.join)]);
+  const FootPlace b = moves.second.moved(feet.second.front());
+  const FootPlace middle = mixed_place(a, b, 0.5);
+  for (int t = stance.first; t <= stance.last; ++t) {
+    const bool is_first = t <= frames.join;
+    const FootPlace own =
+        is_first
+            ? moves.first.moved(feet.first[static_cast<std::size_t>(t)])
+            : moves.second.moved(feet.second[static_cast<std::size_t>(t - frames.start)]);
+    const FootPlace& at_join = is_first ? a : b;
+    const double share =
+        1.0 - retarget::smooth_step(std::abs(t - frames.join) / fade_frames);
+    const auto tilt = [&](const glm::dquat& from, const glm::dquat& to) {
+      return rotation_from_vector(share * rotation_vector(to * glm::conjugate(from)));
+    };
+    FootPlace& place = way[static_cast<std::size_t>(t)];
+    place.ankle_in_world =
+        own.ankle_in_world + share * (middle.ankle_in_world - at_join.ankle_in_world);
+    place.foot = glm::normalize(tilt(at_join.foot, middle.foot) * own.foot);
+    place.toes = glm::normalize(tilt(at_join.toes, middle.toes) * own.toes);
+  }
+}
+
 void place_foot(const OverlapFeet& feet,
                 const std::array<const retarget::FootContacts*, 2>& own,
                 const std::vector<FrameRange>& stances,
                 const JoinFrames& frames,
+                double hz,
                 std::vector<FootPlace>& way) {
-  const int after = frames.join + 1;
-  const bool both_stand =
-      stands_at(*own[0], frames.join) && stands_at(*own[1], after - frames.start);
   for (const FrameRange& stance : stances) {
-    const bool crosses = stance.first <= frames.join && stance.last >= after;
-    if (crosses && both_stand) {
-      const auto entries = common_entries(*own[0], *own[1], frames);
-      bridge_stance(feet, halves_of_gap(feet, entries, frames), stance, frames, way);
-      continue;
-    }
     // A stance of one motion may reach a little beyond the join (join_contacts()).
     const bool is_first =
-        crosses ? stands_at(*own[0], frames.join) : stance.last <= frames.join;
+        stands_within(*own[0], {stance.first, std::min(stance.last, frames.join)});
+    const bool is_second =
+        stands_within(*own[1],
+                      {std::max(stance.first, frames.join + 1) - frames.start,
+                       stance.last - frames.start});
+    if (is_first && is_second) {
+      const auto entries = common_entries(*own[0], *own[1], frames);
+      const BridgeMoves moves = halves_of_gap(feet, entries, frames);
+      if (frames.weight.size() > 1) {
+        bridge_overlap(feet, moves, stance, frames, way);
+      } else {
+        bridge_gap(feet, moves, stance, frames, kTiltFade_s * hz, way);
+      }
+      continue;
+    }
     for (int t = stance.first; t <= stance.last; ++t) {
       way[static_cast<std::size_t>(t)] =
           is_first ? feet.first[static_cast<std::size_t>(t)]
@@ -170,6 +219,7 @@ FootWays bridge_stances(const EditState& first,
                {&first.contacts.feet[side], &second.contacts.feet[side]},
                out.contacts.feet[side].stance,
                frames,
+               out.motion.rate.hz,
                ways[side]);
   }
   return ways;

@@ -19,6 +19,8 @@ using FrameMarks = std::vector<char>;
 
 constexpr double kMinContact_s = 0.06;
 constexpr double kMaxGap_s = 0.05;
+// Time in which a heel is lowered before the join, or raised after it. [s]
+constexpr double kRoll_s = 0.15;
 
 std::vector<FrameRange> runs_with(const FrameMarks& marks, char value) {
   std::vector<FrameRange> out;
@@ -100,13 +102,33 @@ void mend_short(const BothMarks& both, const JoinedFrames& frames, FrameMarks& m
   }
 }
 
+// Frames in which a raised heel does not move. Near the join it moves, unless it is up in
+// both motions: otherwise it would go from one height to another one within a frame.
+FrameMarks joined_heels_up(const BothMarks& both, const JoinedFrames& frames) {
+  FrameMarks out = joined_marks(both, frames);
+  const int roll = static_cast<int>(std::lround(kRoll_s * frames.hz));
+  const int last = static_cast<int>(out.size()) - 1;
+  const int from = std::max(0, std::min(frames.start, frames.join - roll));
+  const int to =
+      std::min(last, std::max(frames.start + frames.length, frames.join + roll));
+  const auto is_up = [&](const FrameMarks& marks, int frame) {
+    return marks[static_cast<std::size_t>(std::clamp(frame, 0, last))] != 0;
+  };
+  if (is_up(both.first, frames.join) && is_up(both.second, frames.join + 1)) return out;
+  std::fill(out.begin() + from, out.begin() + to + 1, char{0});
+  return out;
+}
+
 FootContacts join_foot(const FootContacts& first,
                        const Contacts& a,
                        const FootContacts& second,
                        const Contacts& b,
                        const JoinedFrames& frames) {
+  const auto both_of = [&](std::vector<FrameRange> FootContacts::*runs) {
+    return both_marks(first.*runs, a, second.*runs, b, frames);
+  };
   const auto joined = [&](std::vector<FrameRange> FootContacts::*runs) {
-    const BothMarks both = both_marks(first.*runs, a, second.*runs, b, frames);
+    const BothMarks both = both_of(runs);
     FrameMarks marks = joined_marks(both, frames);
     close_gap(frames, marks);
     mend_short(both, frames, marks);
@@ -114,7 +136,7 @@ FootContacts join_foot(const FootContacts& first,
   };
   const FrameMarks heel = joined(&FootContacts::heel);
   const FrameMarks ball = joined(&FootContacts::ball);
-  FrameMarks heel_up = joined(&FootContacts::heel_up);
+  FrameMarks heel_up = joined_heels_up(both_of(&FootContacts::heel_up), frames);
   FrameMarks stance = heel;
   for (std::size_t t = 0; t < heel.size(); ++t) {
     stance[t] = static_cast<char>(heel[t] | ball[t]);

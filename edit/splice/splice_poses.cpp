@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "edit/state/resample_state.h"
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -23,8 +22,9 @@
 namespace marey::edit {
 namespace {
 
-// Time in which a foot's share in the anchor of the root rises and falls. [s]
-constexpr double kAnchorRamp_s = 0.06;
+// Time in which a foot's share in the anchor of the root rises and falls: half of the
+// usual overlap. Shorter, a change of the bearing foot moves the root within a frame. [s]
+constexpr double kAnchorRamp_s = 0.15;
 
 // Places of both ankles of a pose.
 std::array<glm::dvec3, 2> ankles_of(const EditState& body, const Pose& pose) {
@@ -156,6 +156,66 @@ const Pose& pose_at(const EditState& state, int frame) {
       .poses[static_cast<std::size_t>(std::clamp(frame, 0, state.frame_count() - 1))];
 }
 
+// Rotations of the second motion's joints against the first one's over the overlap, each
+// with the sign that follows the frame before. Two rotations nearly half a turn apart
+// would otherwise be mixed the one way round in a frame and the other way in the next.
+std::vector<std::vector<glm::dquat>> overlap_turns(const EditState& first,
+                                                   const EditState& second,
+                                                   const JoinFrames& frames) {
+  std::vector<std::vector<glm::dquat>> out(frames.weight.size());
+  const auto turn = [&](std::size_t k, std::size_t joint) {
+    const Pose& a = first.motion.poses[static_cast<std::size_t>(frames.start) + k];
+    return glm::conjugate(a.parent_from_joint[joint]) *
+           second.motion.poses[k].parent_from_joint[joint];
+  };
+  const auto join = static_cast<std::size_t>(frames.join - frames.start);
+  for (std::size_t j = 0; j < first.motion.skeleton.joints.size(); ++j) {
+    // The shorter way at the join.
+    glm::dquat at_join = turn(join, j);
+    if (at_join.w < 0.0) at_join = -at_join;
+    glm::dquat last = at_join;
+    for (std::size_t k = join; k < out.size(); ++k) {
+      const glm::dquat next = turn(k, j);
+      last = glm::dot(next, last) < 0.0 ? -next : next;
+      out[k].push_back(last);
+    }
+    last = at_join;
+    for (std::size_t k = join; k-- > 0;) {
+      const glm::dquat next = turn(k, j);
+      last = glm::dot(next, last) < 0.0 ? -next : next;
+      out[k].push_back(last);
+    }
+  }
+  return out;
+}
+
+// Part of a rotation by up to a whole turn.
+glm::dquat part_of_turn(const glm::dquat& turn, double share) {
+  const glm::dvec3 axis(turn.x, turn.y, turn.z);
+  const double sine = glm::length(axis);
+  constexpr double kSmall = 1e-12;
+  if (sine < kSmall) return {1.0, 0.0, 0.0, 0.0};
+  const double half = share * std::atan2(sine, turn.w);
+  const glm::dvec3 part = (std::sin(half) / sine) * axis;
+  return {std::cos(half), part.x, part.y, part.z};
+}
+
+Pose mixed_pose(const Pose& a,
+                const Pose& b,
+                const std::vector<glm::dquat>& turns,
+                double share) {
+  if (share <= 0.0) return a;
+  if (share >= 1.0) return b;
+  Pose out = a;
+  out.root_in_world = glm::mix(a.root_in_world, b.root_in_world, share);
+  for (std::size_t j = 0; j < out.parent_from_joint.size(); ++j) {
+    if (a.parent_from_joint[j] == b.parent_from_joint[j]) continue;
+    out.parent_from_joint[j] =
+        glm::normalize(a.parent_from_joint[j] * part_of_turn(turns[j], share));
+  }
+  return out;
+}
+
 }  // namespace
 
 glm::dvec3 footprint_gap(const EditState& first,
@@ -184,12 +244,13 @@ void mix_overlap(const EditState& first,
                  EditState& out) {
   const auto shares =
       retarget::support_shares(out.contacts, out.motion.rate, kAnchorRamp_s);
+  const auto turns = overlap_turns(first, second, frames);
   for (std::size_t k = 0; k < frames.weight.size(); ++k) {
     const double weight = frames.weight[k];
     const std::size_t t = static_cast<std::size_t>(frames.start) + k;
     const Pose& a = first.motion.poses[t];
     const Pose& b = second.motion.poses[k];
-    Pose mixed = between_poses(a, b, weight);
+    Pose mixed = mixed_pose(a, b, turns[k], weight);
     if (weight > 0.0 && weight < 1.0) {
       const auto feet_a = ankles_of(first, a);
       const auto feet_b = ankles_of(second, b);

@@ -18,12 +18,12 @@ namespace marey::edit {
                                        const EditState& second,
                                        const JoinFrames& frames);
 
-/// Mixes the poses of the overlap by its weights: rotations the shorter way, the root
-/// linearly. The root is then moved so that the feet that bear in `out` go from their
-/// place in the first motion to that in the second one: without it the mixed legs would
-/// make them slide (design of the anchored root: a foot counts as it bears, ramped over
-/// 0.06 s). Linear in the overlap.
-/// Precondition: `out` is their join (join_states()).
+/// Mixes the poses of the overlap by its weights: rotations the way that is
+/// shorter at the join, which they keep over the overlap; the root linearly. The root is
+/// then moved so that the feet that bear in `out` go from their place in the first motion
+/// to that in the second one: without it the mixed legs would make them slide (design of
+/// the anchored root: a foot counts as it bears, ramped over 0.15 s). Linear in the
+/// overlap. Precondition: `out` is their join (join_states()).
 void mix_overlap(const EditState& first,
                  const EditState& second,
                  const JoinFrames& frames,

@@ -32,7 +32,7 @@ constexpr double kMinFade_s = 0.15;
 // Fade of a foot that does not stand again. [s]
 constexpr double kFreeFade_s = 0.4;
 // Time over which the change of a displacement is fitted, and over which it fades. [s]
-constexpr double kRateFit_s = 0.025;
+constexpr double kRateFit_s = 0.04;
 constexpr double kRateFade_s = 0.15;
 
 bool overlaps(const FrameRange& a, const FrameRange& b) {

@@ -178,6 +178,63 @@ TEST(Splice, PlantedFeetStandAcrossTheJoin) {
   EXPECT_LT(worst_slide(*joined, {at - 15, at + 15}), 0.003 /* m/s */);
 }
 
+// The contact ends two frames before the join in one motion and begins two frames after
+// it in the other one.
+TEST(Splice, StanceWithAGapAtTheJoinHasOneFootprint) {
+  EditState first = splice_walk();
+  EditState second = as_source(first, {0, 329}, 1);
+  int at = 0;
+  for (const FrameRange& run : first.contacts.feet[0].stance) {
+    if (run.first > 100 && at == 0) at = (run.first + run.last) / 2;
+  }
+  const auto set_runs = [](EditState& state, const FrameRange& run) {
+    retarget::FootContacts& foot = state.contacts.feet[0];
+    foot.heel = {run};
+    foot.ball = {run};
+    foot.stance = {run};
+    foot.heel_up.clear();
+  };
+  set_runs(first, {at - 12, at - 2});
+  set_runs(second, {at + 3, at + 12});
+  for (Pose& pose : second.motion.poses) pose.root_in_world.x += 0.01;
+  SpliceOp op;
+  op.at = AtFrame{static_cast<double>(at)};
+  op.enter_at = op.at;
+  auto scene = splice_scene(second, op);
+  const auto joined = scene.run(apply_splice, first);
+  ASSERT_TRUE(joined) << joined.error().message();
+  ASSERT_EQ(joined->contacts.feet[0].stance.size(), 1U);
+  EXPECT_LT(worst_slide(*joined, {at - 12, at + 12}), 1e-4 /* m/s */);
+}
+
+// The arm of the second motion swings past half a turn from that of the first one. Mixed
+// the shorter way frame by frame, it would change sides within one frame.
+TEST(Splice, RotationsHalfATurnApartAreMixedOneWayRound) {
+  const EditState first = splice_walk();
+  EditState second = as_source(first, {0, 329}, 1);
+  const std::size_t arm = index(*first.motion.skeleton.find(HumanBone::kLeftUpperArm));
+  for (std::size_t t = 0; t < second.motion.poses.size(); ++t) {
+    const double angle_rad = 3.14159 + 0.02 * (static_cast<double>(t) - 90.0);
+    glm::dquat& q = second.motion.poses[t].parent_from_joint[arm];
+    q = q * rotation_from_vector({angle_rad, 0.0, 0.0});
+  }
+  SpliceOp op;
+  op.at = AtFrame{200};
+  op.enter_at = AtFrame{90};
+  auto scene = splice_scene(second, op);
+  const auto joined = scene.run(apply_splice, first);
+  ASSERT_TRUE(joined);
+  for (std::size_t t = 180; t < 220; ++t) {
+    const glm::dquat step =
+        glm::conjugate(joined->motion.poses[t].parent_from_joint[arm]) *
+        joined->motion.poses[t + 1].parent_from_joint[arm];
+    // Half a turn over 30 frames with weights that change by 1/16 a frame at most.
+    EXPECT_LT(glm::length(rotation_vector(std::abs(step.w) == step.w ? step : -step)),
+              0.3)
+        << t;
+  }
+}
+
 // Both one-sided velocities at the join agree up to the accelerations of the motion.
 TEST(Splice, WithoutAnOverlapValuesAndVelocitiesMeet) {
   const EditState first = splice_walk();
