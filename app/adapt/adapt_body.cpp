@@ -10,6 +10,7 @@
 
 #include "app/adapt/load_character.h"
 #include "app/motion/error_of_file.h"
+#include "app/motion/marey_skeleton.h"
 #include "app/motion/retarget_files.h"
 #include "core/base/extension.h"
 #include "recordings/body/character_file.h"
@@ -91,16 +92,6 @@ Status place_motion(const Motion& source,
   return Done{};
 }
 
-bool is_marey_s(const Skeleton& skeleton) {
-  if (skeleton.joints.size() != kHumanBoneCount) return false;
-  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
-    const Joint& joint = skeleton.joints[j];
-    if (joint.bone != human_bones()[j]) return false;
-    if (joint.parent_from_joint.rotation != glm::dquat(1, 0, 0, 0)) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 Result<AdaptBody> make_adapt_body(const Motion& source, const AdaptBodyOptions& options) {
@@ -131,7 +122,8 @@ Status check_adapted_out(const AdaptBody& body, const fs::path& out) {
                      "cannot write a \"" + kind + "\" file",
                      "name the result .glb or .bvh");
   }
-  if (!body.look.file.empty() || is_marey_s(body.character.skeleton)) return Done{};
+  if (!body.look.file.empty() || is_marey_skeleton(body.character.skeleton))
+    return Done{};
   return bad_input(out.string(),
                    "the body has no mesh to put into a .glb",
                    "give a character with a GLB or VRM avatar, or name the result .bvh");

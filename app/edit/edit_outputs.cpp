@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/edit/edit_json.h"
+#include "app/motion/marey_skeleton.h"
 #include "core/base/format_text.h"
 #include "core/pose.h"
 #include "recordings/base/atomic_file.h"
@@ -57,17 +58,6 @@ double largest_figure(const edit::Rendered& rendered, const std::string& name) {
     }
   }
   return largest;
-}
-
-/// Returns true for the skeletons that marey makes, which a mannequin fits.
-bool is_marey_skeleton(const Skeleton& skeleton) {
-  if (skeleton.joints.size() != kHumanBoneCount) return false;
-  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
-    const Joint& joint = skeleton.joints[j];
-    if (joint.bone != human_bones()[j]) return false;
-    if (joint.parent_from_joint.rotation != glm::dquat(1, 0, 0, 0)) return false;
-  }
-  return true;
 }
 
 /// Returns the look of the body that the last retarget operation put on.

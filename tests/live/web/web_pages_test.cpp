@@ -165,7 +165,7 @@ TEST(WebPages, AreAnsweredOneByOne) {
   ASSERT_EQ(texts.size(), 1U);
   server.answer_text(texts[0].client, "the second");
   server.publish_text(PageMessage::kStatus, "to all");
-  server.answer_frame(ClientId{99}, "to nobody");
+  server.answer_frame(ClientId{99}, "for no page");
   EXPECT_EQ(first.receive_message()->payload, "to all");
   EXPECT_EQ(second.receive_message()->payload, "the second");
   EXPECT_EQ(second.receive_message()->payload, "to all");
@@ -183,7 +183,7 @@ TEST(WebPages, ReceiveQueuedAnswersInOrderAndTheNewestOfTooMany) {
   server.queue_text(texts[0].client, std::string(std::size_t{32} << 20, 'x'));
   std::this_thread::sleep_for(50ms);
   for (int i = 0; i < 20; ++i) server.queue_text(texts[0].client, std::to_string(i));
-  server.queue_text(ClientId{99}, "to nobody");
+  server.queue_text(ClientId{99}, "for no page");
   EXPECT_EQ(page.receive_message()->payload.size(), std::size_t{32} << 20);
   for (int i = 4; i < 20; ++i) {
     EXPECT_EQ(page.receive_message()->payload, std::to_string(i));
