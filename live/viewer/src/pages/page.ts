@@ -113,6 +113,7 @@ class Page implements Listener, StageListener {
       this.cameras.status(words.cameras);
     } else if (words.type === 'wizard') this.wizard.show(words);
     else if (words.type === 'constraints') this.setConstraints(words.constraints);
+    else if (words.type !== 'error') window.location.reload(); // The server is marey edit now.
     else if (words.about === 'wizard') this.wizard.refuse(words.text);
     else this.trouble(words.text);
   }

@@ -4,6 +4,9 @@
 // Messages between marey and its page, version 1 (docs/formats/page.md). The
 // world is right-handed, Y up, in metres and seconds; quaternions are x y z w.
 
+import type {EditErrorWords, EditPageWords, EditWords} from './edit_protocol';
+import {EDIT_TYPES} from './edit_protocol';
+
 export const PROTOCOL_VERSION = 1;
 
 export type Vector = [number, number, number];
@@ -67,7 +70,7 @@ export interface FileWords {
 }
 
 export interface SceneWords {
-  type: 'scene'; version: number; revision: number; title: string; mode: 'live' | 'file';
+  type: 'scene'; version: number; revision: number; title: string; mode: 'live' | 'file' | 'edit';
   rate_hz: number; skeletons: SkeletonWords[]; cameras: CameraWords[];
   points: {labels: string[]} | null; floor: {height_m: number} | null;
   constraints: ConstraintWords[]; file: FileWords | null; wizard: WizardWords | null;
@@ -100,7 +103,8 @@ export type ServerWords =
   | StatusWords
   | WizardWords
   | {type: 'constraints'; constraints: ConstraintWords[]}
-  | {type: 'error'; text: string; about?: string};
+  | EditWords
+  | EditErrorWords;
 
 export type DragPhase = 'begin' | 'move' | 'end';
 export type WizardAction = 'start' | 'next' | 'cancel' | 'accept';
@@ -113,7 +117,8 @@ export type PageWords =
   | {type: 'wizard'; action: WizardAction}
   | {type: 'record'; on: boolean}
   | {type: 'thumbnails'; on: boolean}
-  | {type: 'trial'; name: string};
+  | {type: 'trial'; name: string}
+  | EditPageWords;
 
 /** Parses a text of the server, or returns its error. Only the outline is checked: the
  *  server is marey, and another version is reported. */
@@ -129,7 +134,8 @@ export function readServerWords(text: string): ServerWords | {type: 'bad'; why: 
   }
   const {type} = words;
   if (type === 'scene') return readScene(words as SceneWords);
-  if (type === 'status' || type === 'wizard' || type === 'constraints' || type === 'error') {
+  if (type === 'status' || type === 'wizard' || type === 'constraints' || type === 'error' ||
+    EDIT_TYPES.includes(String(type))) {
     return words as ServerWords;
   }
   return {type: 'bad', why: `a message has the unknown type ${String(type)}`};

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What tools of the edit page know about the shown motion, and what they do with it.
+
+import type {Change, EditDocument} from './edit_document';
+import type {OpWords, OutputWords} from '../protocol/edit_protocol';
+
+/** The shown motion and the way to change it. Implemented by the page. */
+export interface EditView {
+  readonly document: EditDocument;
+  /** Operations that are applied to the shown motion; null: all of them. A user looks at the
+   *  motion before or after one operation with it. */
+  readonly until: number | null;
+  /** The shown motion; null: none was received. During a preview it stays the one that the
+   *  gesture began on. */
+  readonly output: OutputWords | null;
+  /** Its index in the results. */
+  readonly outputIndex: number;
+  /** The shown instant. [frames] */
+  readonly time: number;
+  /** Shows the motion with a change that is not made, as in a drag. `until` as above; by
+   *  default, the same operations as now and inserted ones are applied. */
+  preview(change: Change, until?: number | null): void;
+  /** Makes the change, and shows its result. Returns whether it was done. */
+  commit(change: Change): Promise<boolean>;
+  /** Ends a preview without a change. */
+  cancel(): void;
+}
+
+/** Index at which an operation is inserted that receives the shown motion. A last retarget
+ *  stays last; it changes no times. */
+export function insertIndex(ops: readonly OpWords[], until: number | null): number {
+  const end = until ?? ops.length;
+  return end > 0 && ops[end - 1]?.do.startsWith('retarget@') ? end - 1 : end;
+}
