@@ -16,6 +16,7 @@
 #include "app/motion/raw_body.h"
 #include "app/shell/findings.h"
 #include "app/shell/option_checks.h"
+#include "app/view/view_commands.h"
 #include "core/base/format_text.h"
 #include "core/base/in_quotes.h"
 #include "recordings/base/sha256.h"
@@ -37,7 +38,8 @@ Result<EditRecipe> read_named_recipe(const fs::path& file) {
   if (!file.string().ends_with(".toml")) {
     return bad_input(file.string(),
                      "is not a recipe (.edit.toml)",
-                     "make one for this motion with --new RECIPE.edit.toml");
+                     "edit it in a browser with --page, or make a recipe for it with "
+                     "--new RECIPE.edit.toml");
   }
   auto recipe = recordings::read_edit_recipe(file);
   if (!recipe || !recipe->name.empty()) return recipe;
@@ -163,6 +165,17 @@ void print_json(const nlohmann::ordered_json& json) {
   std::printf("%s\n", json.dump(2, ' ', false, kReplace).c_str());
 }
 
+Exit serve_recipe(const EditArguments& args,
+                  const std::vector<MotionFormat>& formats,
+                  Console& console) {
+  EditPageArguments page = args.page;
+  page.what = args.recipe;
+  page.out = args.out;
+  page.formats = formats;
+  page.accept_new_source = args.accept_new_source;
+  return run_edit_page(page, console);
+}
+
 Exit edit_one_recipe(const EditArguments& args,
                      const EditOutput& output,
                      Console& console) {
@@ -190,9 +203,11 @@ Exit edit_one_recipe(const EditArguments& args,
 
 Exit run_edit(const EditArguments& args, Console& console) {
   if (!args.new_recipe.empty()) return make_recipe(args, console);
-  if (args.out.empty() && !args.check) {
-    return console.fail(bad_usage(
-        "--out", "is missing", "give a folder for the results, or use --check"));
+  if (args.out.empty() && !args.check && !args.serves_page) {
+    return console.fail(
+        bad_usage("--out",
+                  "is missing",
+                  "give a folder for the results, or use --page or --check"));
   }
   EditOutput output;
   output.out = args.out;
@@ -203,6 +218,7 @@ Exit run_edit(const EditArguments& args, Console& console) {
     if (const Status ok = check_out_folder(args.out); !ok)
       return console.fail(ok.error());
   }
+  if (args.serves_page) return serve_recipe(args, output.formats, console);
   return args.each.empty() ? edit_one_recipe(args, output, console)
                            : edit_many(args, output, console);
 }
@@ -239,13 +255,35 @@ Exit run_edit_diff(const EditArguments& args, Console& console) {
   return Exit::kOk;
 }
 
+namespace {
+
+/// The options of the page need --page, and those that write or measure exclude it.
+void add_edit_page_options(CLI::App& command, EditArguments& args) {
+  CLI::Option* page = command.add_flag(
+      "--page",
+      args.serves_page,
+      "Edits in a browser; a motion gets the recipe NAME.edit.toml next to it");
+  for (const char* other : {"--until", "--each", "--new", "--check", "--pin", "--json"}) {
+    page->excludes(command.get_option(other));
+  }
+  add_page_options(command, args.page.page);
+  for (const char* option : {"--port", "--lan", "--web-root", "--no-open"}) {
+    command.get_option(option)->needs(page);
+  }
+  command.add_option("--seconds", args.page.seconds, "Ends the page after this time [s]")
+      ->check(between(0.001, 1e6))
+      ->needs(page);
+}
+
+}  // namespace
+
 void add_edit_command(CLI::App& app,
                       EditArguments& args,
                       std::function<Exit(Console&)>& chosen) {
   CLI::App* command =
       app.add_subcommand("edit", "Apply a recipe of operations to a motion");
   auto* recipe = command->add_option(
-      "RECIPE", args.recipe, "Recipe (.edit.toml); with --new: a motion");
+      "RECIPE", args.recipe, "Recipe (.edit.toml); with --new or --page: a motion");
   command->add_option("-o,--out", args.out, "Folder of the results");
   command
       ->add_option("--format",
@@ -270,6 +308,7 @@ void add_edit_command(CLI::App& app,
                     args.accept_new_source,
                     "Accepts sources that changed since they were recorded");
   command->add_flag("--json", args.json, "Prints edit.json on standard output");
+  add_edit_page_options(*command, args);
   CLI::App* diff = command->add_subcommand(
       "diff", "Compare two recipes: their operations and their results");
   diff->add_option("A", args.diff_first, "Recipe")->required();

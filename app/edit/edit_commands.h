@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/edit/edit_page.h"
 #include "app/shell/console.h"
 #include "app/shell/exit_codes.h"
 
@@ -27,12 +28,15 @@ struct EditArguments {
   bool pin = false;
   bool accept_new_source = false;
   bool json = false;
+  bool serves_page = false;  ///< Serves the page; `page` has its other arguments.
+  EditPageArguments page;
   std::filesystem::path diff_first;
   std::filesystem::path diff_second;
 };
 
-/// Renders a recipe and writes its results; with `each`, once for each motion. Exit code
-/// 4 if a figure is above a limit of the recipe, or a motion of many fails.
+/// Renders a recipe and writes its results; with `each`, once for each motion; with
+/// `serves_page`, whenever a page asks for it. Exit code 4 if a figure is above a limit
+/// of the recipe, or a motion of many fails.
 Exit run_edit(const EditArguments& args, Console& console);
 
 /// Prints which operations two recipes differ in, and the largest difference of a joint

@@ -27,7 +27,9 @@ export interface DocumentListener {
 
 type Answer = EditWords | EditErrorWords;
 type Send = (words: EditPageWords) => boolean;
-type Wish = {patch: Change; parts: PreviewParts};
+/** Which part a preview renders, from the steps of its change. */
+export type ChooseParts = (steps: readonly OpStep[]) => PreviewParts;
+type Wish = {patch: Change; parts: ChooseParts};
 
 const NOT_CONNECTED: EditErrorWords = {type: 'error', text:
   'marey does not answer. The change was not made: is the program still running?'};
@@ -96,14 +98,14 @@ export class EditDocument {
 
   /** Renders a change without making it, as in a drag. While an answer is awaited, only the
    *  newest request is kept. */
-  preview(patch: Change, parts: PreviewParts = {}): void {
+  preview(patch: Change, parts: ChooseParts = () => ({})): void {
     this.wish = {patch, parts};
     if (!this.isPreviewing) void this.sendWish();
   }
 
   /** Renders the unchanged recipe, such as the motion as operation `until` receives it. */
   show(parts: PreviewParts): void {
-    this.preview(() => [], parts);
+    this.preview(() => [], () => parts);
   }
 
   /** Forgets a preview that was not sent. */
@@ -166,13 +168,14 @@ export class EditDocument {
     this.isPreviewing = true;
     while (this.wish) {
       await this.changes;
-      const {patch, parts} = this.wish ?? {};
+      if (!this.wish) break;
+      const {patch, parts} = this.wish;
       this.wish = null;
-      const ops_patch = patch?.(this.ops);
+      const ops_patch = patch(this.ops);
       if (!ops_patch) continue;
       const answer = await this.ask(ops_patch.length > 0
-        ? {type: 'preview', ops_patch, ...this.base(), ...parts}
-        : {type: 'render', ...this.base(), ...parts});
+        ? {type: 'preview', ops_patch, ...this.base(), ...parts(ops_patch)}
+        : {type: 'render', ...this.base(), ...parts([])});
       if (answer.type === 'preview') this.listener.onPreview(answer);
     }
     this.isPreviewing = false;

@@ -4,7 +4,7 @@
 // What tools of the edit page know about the shown motion, and what they do with it.
 
 import type {Change, EditDocument} from './edit_document';
-import type {OpWords, OutputWords} from '../protocol/edit_protocol';
+import type {OpStep, OpWords, OutputWords} from '../protocol/edit_protocol';
 
 /** The shown motion and the way to change it. Implemented by the page. */
 export interface EditView {
@@ -33,4 +33,19 @@ export interface EditView {
 export function insertIndex(ops: readonly OpWords[], until: number | null): number {
   const end = until ?? ops.length;
   return end > 0 && ops[end - 1]?.do.startsWith('retarget@') ? end - 1 : end;
+}
+
+/** Returns the number of operations after a change that includes the operations before index
+ *  `until`, and those that were inserted at it. */
+export function untilAfter(steps: readonly OpStep[], until: number): number {
+  let end = until;
+  for (const step of steps) {
+    if ('insert' in step) end += step.insert <= end ? 1 : 0;
+    else if ('remove' in step) end -= step.remove < end ? 1 : 0;
+    else if ('move' in step) {
+      if (step.move < end && step.to >= end) end -= 1;
+      else if (step.move >= end && step.to < end) end += 1;
+    }
+  }
+  return end;
 }

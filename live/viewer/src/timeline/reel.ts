@@ -7,7 +7,7 @@ import {MotionBlock, PointBlock} from '../protocol/decode_blocks';
 import {decodeFrame, SceneFrame} from '../protocol/decode_frame';
 import {FrameRing} from './frame_ring';
 import {Playback} from './playback';
-import {blendFrames} from '../scene/posed_skeleton';
+import {Instant} from './instant';
 import type {SceneWords} from '../protocol/protocol';
 import type {GraphData} from './graph';
 import {FileContacts, FileRows, listedCurve, RingContacts, RingResidual, RingRows}
@@ -19,15 +19,13 @@ const MAX_FRAMES = 7200;
 
 export class Reel {
   readonly playback = new Playback();
-  /** The shown instant, after compose(). */
-  shown = new SceneFrame([]);
   rows: Rows = new RingRows([], new FrameRing(1, 0));
   /** Contacts over time; null for a session without a performer. */
   contacts: Rows | null = null;
   graphs: readonly GraphData[] = [];
   points: PointBlock | null = null;
-  private before = new SceneFrame([]);
-  private after = new SceneFrame([]);
+  private instant = new Instant([]);
+  private scratch = new SceneFrame([]);
   private block: MotionBlock | null = null;
   private ring = new FrameRing(1, 0);
   private live = true;
@@ -38,6 +36,11 @@ export class Reel {
    *  shown; later answers are ignored. */
   private adapted: {at: number; seeks: number; frame: SceneFrame | null} | null = null;
 
+  /** The shown instant, after compose(). */
+  get shown(): SceneFrame {
+    return this.instant.shown;
+  }
+
   /** Keeps the stored frames if the session continues. */
   setScene(scene: SceneWords): void {
     this.live = scene.mode === 'live';
@@ -47,9 +50,8 @@ export class Reel {
       ({joints}) => joints.map(({name}) => name))]);
     if (this.live && layout === this.layout) return;
     this.layout = layout;
-    this.shown = new SceneFrame(scene.skeletons);
-    this.before = new SceneFrame(scene.skeletons);
-    this.after = new SceneFrame(scene.skeletons);
+    this.instant = new Instant(scene.skeletons);
+    this.scratch = new SceneFrame(scene.skeletons);
     this.block = null;
     this.points = null;
     this.witness = Math.max(scene.skeletons.findIndex(({estimate}) => estimate), -1);
@@ -103,8 +105,8 @@ export class Reel {
   push(view: DataView): boolean {
     if (!this.live) return this.adapt(view);
     // Decoded now for the timeline, and again when shown, which may never happen.
-    if (decodeFrame(view, 0, this.after) < 0) return false;
-    const witness = this.after.skeletons[this.witness];
+    if (decodeFrame(view, 0, this.scratch) < 0) return false;
+    const witness = this.scratch.skeletons[this.witness];
     if (witness && !witness.hasUncertainty) witness.source.fill(0);
     const tracked = witness?.hasTracking ? witness : null;
     this.ring.push(view, witness?.hasPose ? witness.source : null, tracked?.bears,
@@ -138,14 +140,7 @@ export class Reel {
       this.take(this.adapted.frame);
       return true;
     }
-    const low = Math.floor(time);
-    if (low === time || !this.read(low + 1, this.after)) return this.read(frame, this.shown);
-    if (!this.read(low, this.before)) return false;
-    this.shown.frame = this.before.frame;
-    this.shown.sent_s = this.before.sent_s;
-    this.shown.skeletons.forEach((into, i) => blendFrames(into, this.before.skeletons[i],
-      this.after.skeletons[i], time - low));
-    return true;
+    return this.instant.compose(time, frame, (i, into) => this.read(i, into));
   }
 
   private take(frame: SceneFrame): void {
@@ -166,7 +161,8 @@ export class Reel {
   }
 }
 
-async function fetched(media: string, signal: AbortSignal): Promise<ArrayBuffer> {
+/** Fetches a block. Throws an Error with the cause. */
+export async function fetched(media: string, signal: AbortSignal): Promise<ArrayBuffer> {
   const answer = await fetch(media, {signal, credentials: 'same-origin'});
   if (!answer.ok) throw new Error(`${media}: ${answer.status} ${answer.statusText}`);
   return answer.arrayBuffer();

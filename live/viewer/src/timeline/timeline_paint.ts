@@ -28,6 +28,8 @@ export interface Look {
 
 /** Rows that are drawn alike. */
 export interface Strip {
+  /** For tools that work on certain rows. */
+  kind?: string;
   rows: Rows;
   /** Colour of frames that are in no run. */
   base: string;

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Frames of the edited motion: a whole result, and the part that a preview has rendered.
+
+import {MotionBlock} from '../protocol/decode_blocks';
+import {SceneFrame} from '../protocol/decode_frame';
+import type {OutputWords, Span} from '../protocol/edit_protocol';
+import type {SkeletonWords} from '../protocol/protocol';
+import {Instant} from '../timeline/instant';
+import {Playback} from '../timeline/playback';
+import {fetched} from '../timeline/reel';
+
+/** Frames `span[0]` to `span[1]` of a motion. */
+export interface MotionPart {block: MotionBlock; span: Span}
+
+export class EditReel {
+  readonly playback = new Playback();
+  private instant = new Instant([]);
+  private skeletons: readonly SkeletonWords[] = [];
+  private whole: MotionPart | null = null;
+  private preview: MotionPart | null = null;
+
+  /** The shown instant, after compose(). */
+  get shown(): SceneFrame {
+    return this.instant.shown;
+  }
+
+  /** Sets the bodies. All frames are forgotten. */
+  setSkeletons(skeletons: readonly SkeletonWords[]): void {
+    this.skeletons = skeletons;
+    this.instant = new Instant(skeletons);
+    this.whole = null;
+    this.preview = null;
+  }
+
+  /** Fetches the frames of an output, without using them yet. Throws an Error with the cause. */
+  async fetch({block, span}: OutputWords, signal: AbortSignal): Promise<MotionPart> {
+    return {block: new MotionBlock(await fetched(block, signal), new SceneFrame(this.skeletons)),
+      span};
+  }
+
+  /** Shows these frames. The instant stays, as far as the motion has it. */
+  setWhole(part: MotionPart, {frames, rate_hz}: OutputWords): void {
+    const {playback} = this;
+    const time_s = playback.time / playback.rate_hz;
+    const changed = rate_hz !== playback.rate_hz;
+    playback.rate_hz = rate_hz;
+    playback.setRange(0, frames - 1);
+    if (changed) playback.seek(Math.round(time_s * rate_hz));
+    this.whole = part;
+    this.preview = null;
+  }
+
+  /** Shows these frames where they exist; null: only those of setWhole(). */
+  setPreview(part: MotionPart | null): void {
+    this.preview = part;
+  }
+
+  /** True if the preview has the shown frame, or there is none. */
+  get hasPreviewedFrame(): boolean {
+    return !this.preview || contains(this.preview, this.playback.frame);
+  }
+
+  /** Sets `shown` to the instant of the playback. Returns false if there is nothing to show. */
+  compose(): boolean {
+    const {time, frame} = this.playback;
+    return this.instant.compose(time, frame, this.read);
+  }
+
+  private readonly read = (i: number, into: SceneFrame): boolean => {
+    const part = this.preview && contains(this.preview, i) ? this.preview : this.whole;
+    if (!part || !contains(part, i)) return false;
+    part.block.read(i - part.span[0], into);
+    return true;
+  };
+}
+
+function contains({span, block}: MotionPart, i: number): boolean {
+  return i >= span[0] && i - span[0] < block.frames;
+}
