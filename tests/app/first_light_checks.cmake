@@ -38,15 +38,17 @@ add_test(NAME app/sample_recipes_render
 set_tests_properties(app/sample_recipes_render PROPERTIES
   FIXTURES_REQUIRED sample_once LABELS once)
 
-# The page on those results, and live, in a browser.
-if(NODE)
-  add_test(NAME app/page_of_first_light
-    COMMAND ${NODE} ${PROJECT_SOURCE_DIR}/live/viewer/test/run_real.mjs)
-else()
-  add_test(NAME app/page_of_first_light
-    COMMAND ${CMAKE_COMMAND} -E echo "skipped: node is missing; apt-get install nodejs")
-endif()
-set_tests_properties(app/page_of_first_light PROPERTIES
-  FIXTURES_REQUIRED sample_once SKIP_REGULAR_EXPRESSION "skipped:" LABELS once
-  PROCESSORS 2 TIMEOUT 300 ENVIRONMENT
-  "MAREY_PROGRAM=$<TARGET_FILE:marey>;MAREY_RESULTS=${first_light}/once;MAREY_SESSION=${sample}")
+# The pages on those results, and live, in a browser.
+foreach(page first_light edit)
+  if(NODE)
+    add_test(NAME app/page_of_${page}
+      COMMAND ${NODE} ${PROJECT_SOURCE_DIR}/live/viewer/test/run_real.mjs ${page})
+  else()
+    add_test(NAME app/page_of_${page}
+      COMMAND ${CMAKE_COMMAND} -E echo "skipped: node is missing; apt-get install nodejs")
+  endif()
+  set_tests_properties(app/page_of_${page} PROPERTIES
+    FIXTURES_REQUIRED sample_once SKIP_REGULAR_EXPRESSION "skipped:" LABELS once
+    PROCESSORS 2 TIMEOUT 300 ENVIRONMENT
+    "MAREY_PROGRAM=$<TARGET_FILE:marey>;MAREY_RESULTS=${first_light}/once;MAREY_SESSION=${sample}")
+endforeach()

@@ -5,18 +5,17 @@
 // and `marey live` on a replayed trial. Each user action is tested once.
 
 import assert from 'node:assert/strict';
-import {spawn} from 'node:child_process';
 import {cpSync, existsSync, mkdtempSync, readdirSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 import {openBrowser, openPage} from './browser.mjs';
+import {apart, drag, end_all, joint, serve, until} from './marey_process.mjs';
 
-const {MAREY_PROGRAM, MAREY_RESULTS, MAREY_SESSION} = process.env;
+const {MAREY_RESULTS, MAREY_SESSION} = process.env;
 
 let browser;
 let folder;
-const running = [];
 before(async () => {
   browser = await openBrowser();
   folder = mkdtempSync(join(tmpdir(), 'marey-page-'));
@@ -27,58 +26,11 @@ before(async () => {
   cpSync(join(folder, 'walk'), join(folder, 'walk again'), {recursive: true});
 });
 after(async () => {
-  for (const process of running) process.kill('SIGINT');
+  await end_all();
   await browser.close();
   rmSync(folder, {recursive: true});
 });
 
-/** Starts marey and returns the address that it prints. */
-async function serve(...words) {
-  const marey = spawn(MAREY_PROGRAM, [...words, '--port', '0', '--no-open'],
-    {stdio: ['ignore', 'pipe', 'inherit']});
-  running.push(marey);
-  for await (const bytes of marey.stdout) {
-    const [address] = /http:\S+/.exec(String(bytes)) ?? [];
-    if (address) {
-      marey.stdout.resume();
-      return address;
-    }
-  }
-  throw new Error('marey printed no address');
-}
-
-async function until(what, holds, limit_ms = 25000) {
-  const end = performance.now() + limit_ms;
-  while (!(await holds())) {
-    assert.ok(performance.now() < end, `this did not happen: ${what}`);
-    await new Promise((done) => setTimeout(done, 50));
-  }
-}
-
-/** Returns the position of a handle on the page. */
-const handleAt = (page, id) => page.evaluate((name) => {
-  const {left, top} = document.querySelector('.stage canvas').getBoundingClientRect();
-  const [x, y] = window.mareyPage.stage.pixelOfHandle(name);
-  return [x + left, y + top];
-}, id);
-
-/** Drags a handle by this many pixels. */
-async function drag(page, id, by_x, by_y) {
-  const [x, y] = await handleAt(page, id);
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  await page.mouse.move(x + by_x, y + by_y, {steps: 6});
-  await page.mouse.up();
-}
-
-/** Returns the drawn position of a body's joint, without the body's offset in the row. [m] */
-const joint = (page, body, bone) => page.evaluate(([which, name]) => {
-  const {pose, words} = window.mareyPage.stage.bodies[which];
-  const i = words.joints.findIndex((one) => one.bone === name);
-  return [...pose.p_in_world.slice(3 * i, 3 * i + 3)];
-}, [body, bone]);
-
-const apart = (a, b) => Math.hypot(...a.map((x, k) => x - b[k]));
 const playback = (page) => page.evaluate(() => {
   const {frame, time, last, playing, speed, loop} = window.mareyPage.reel.playback;
   return {frame, time, last, playing, speed, loop};
@@ -88,7 +40,7 @@ const dressed = (page, bodies) => page.waitForFunction((many) =>
 
 test('results: opened from the report, played, scrubbed, dragged; another trial is opened',
   async () => {
-    const address = await serve('view', folder);
+    const {address} = await serve('view', folder);
     const bodies = readdirSync(join(folder, 'walk')).filter((name) => name.endsWith('.glb'));
     const {page, troubles, close} = await openPage(browser, address);
 
@@ -148,7 +100,7 @@ test('live: a walking body shows its balance and steps; its avatar is dragged an
   {timeout: 60000}, async () => {
   const body = join(folder, 'walk', readdirSync(join(folder, 'walk'))
     .find((name) => name.endsWith('.glb') && name !== 'motion.glb') ?? 'motion.glb');
-  const address = await serve('live', MAREY_SESSION, '--results', folder, '--play', 'walk',
+  const {address} = await serve('live', MAREY_SESSION, '--results', folder, '--play', 'walk',
     '--loop', '--vmc-send-only', '--progress', 'none', '--avatar', body);
   const {page, troubles, close} = await openPage(browser, address);
   await until('a body that is tracked', async () =>

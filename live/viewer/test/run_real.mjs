@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Tests the page that marey serves, in a browser. MAREY_PROGRAM is marey, MAREY_RESULTS
-// what `marey process` made of MAREY_SESSION, whose trial is `walk`. Prints "skipped:" if
-// there is no browser.
+// node run_real.mjs [edit]: tests the page that marey serves, in a browser; with edit, the page of
+// marey edit. MAREY_PROGRAM is marey, MAREY_RESULTS what `marey process` made of MAREY_SESSION,
+// whose trial is `walk`. Prints "skipped:" if there is no browser.
 
 import {spawnSync} from 'node:child_process';
 import {existsSync} from 'node:fs';
@@ -21,6 +21,7 @@ for (const name of ['MAREY_PROGRAM', 'MAREY_RESULTS', 'MAREY_SESSION']) {
     process.exit(1);
   }
 }
+const script = process.argv[2] === 'edit' ? 'edit_page.test.mjs' : 'real_page.test.mjs';
 const {status} = spawnSync(process.execPath, ['--test',
-  fileURLToPath(new URL('real_page.test.mjs', import.meta.url))], {stdio: 'inherit'});
+  fileURLToPath(new URL(script, import.meta.url))], {stdio: 'inherit'});
 process.exit(status ?? 1);
