@@ -46,6 +46,15 @@ const shown = (page) => until('the result of the newest revision', () => page.ev
   return !edit.isBehind && edit.rendered.outputs.includes(output) &&
     playback.last === output.frames - 1;
 }));
+/** Goes to a frame and waits until it is drawn. */
+async function seek(page, frame) {
+  const drawn = await page.evaluate((at) => {
+    window.mareyPage.seek(at);
+    return window.mareyPage.drawnCount;
+  }, frame);
+  await page.waitForFunction((count) => window.mareyPage.drawnCount > count &&
+    !window.mareyPage.stale, drawn);
+}
 /** Makes a change as a tool of the page does. Returns whether it was made. */
 const commit = (page, ...steps) => page.evaluate((list) =>
   window.mareyPage.commit(() => list), steps);
@@ -113,9 +122,7 @@ test('a preview shows a change in the scene without making it', async () => {
   const {page, troubles, close} = await openPage(browser, address);
   await shown(page);
   const was = await state(page);
-  await page.evaluate(() => window.mareyPage.seek(20));
-  await until('that frame', async () => (await state(page)).frame === 20);
-  await page.waitForTimeout(100);
+  await seek(page, 20);
   const hand = await joint(page, RESULT, 'leftHand');
   await page.evaluate(() => window.mareyPage.preview((ops) => [{insert: ops.length, op: {
     do: 'pose@1', at_frame: 20, bone: 'leftHand', moved_m: [0, 0.15, 0]}}]));

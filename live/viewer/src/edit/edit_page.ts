@@ -46,6 +46,8 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
   until: number | null = null;
   output: OutputWords | null = null;
   outputIndex = 0;
+  /** Number of pictures drawn since the page was opened. */
+  drawnCount = 0;
   private readonly theme = new Theme();
   private readonly timeline: Timeline;
   private readonly transport: Transport;
@@ -298,7 +300,9 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     this.transport.show();
   }
 
-  afterPicture(): void {}
+  afterPicture(): void {
+    ++this.drawnCount;
+  }
 
   /** Called when the shown instant has changed. */
   private renew(): void {
