@@ -150,7 +150,7 @@ test('exported files have the bytes of the command line', async () => {
   execFileSync(MAREY_PROGRAM, ['edit', recipe, '--out', by_command], {stdio: 'ignore'});
   const names = readdirSync(by_command).sort();
   assert.deepEqual(readdirSync(by_page).sort(), names);
-  assert.ok(names.includes('walk.npz') && names.includes('edit.json'));
+  assert.ok(names.includes('walk.npz') && names.includes('walk.edit.json'));
   for (const name of names) {
     assert.ok(readFileSync(join(by_page, name)).equals(readFileSync(join(by_command, name))),
       `${name} differs`);
