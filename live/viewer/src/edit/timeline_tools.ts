@@ -244,8 +244,9 @@ function isSame(a: Handle | null, b: Handle | null): boolean {
 /** The rows with handles at a pointer, and how far above or below it they are. */
 function rowsAt({area, strip, row, y_px, reach_px, layout, event}: TimelinePlace):
   {where: HandlePlace; row: number; away_px: number}[] {
+  // A finger on the axis scrubs next to a handle of the axis, not to an edge below it.
+  if (area === 'axis') return [{where: 'axis', row: 0, away_px: 0}];
   if (event.pointerType === 'mouse') {
-    if (area === 'axis') return [{where: 'axis', row: 0, away_px: 0}];
     return strip?.kind && KINDS.includes(strip.kind)
       ? [{where: strip.kind as HandlePlace, row, away_px: 0}] : [];
   }

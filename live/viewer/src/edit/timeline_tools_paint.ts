@@ -141,7 +141,7 @@ export class ToolsPainter {
     const {context, layout: {x, colour}} = this;
     const at = x(frame);
     if (!this.isVisible(at)) return;
-    const half = isBright ? 6 : 5;
+    const half = isBright ? 7 : 6;
     const middle = SPAN_PX;
     context.fillStyle = colour('accent');
     context.strokeStyle = colour('card');

@@ -333,7 +333,10 @@ export class Timeline {
     setText(tip, own ?? `${this.clock(frame)}${words}`);
     const left = Math.min(Math.max(x, tip.offsetWidth / 2),
       this.element.clientWidth - tip.offsetWidth / 2);
-    tip.style.transform = `translate(${left.toFixed(0)}px, ${top}px) translate(-50%, -105%)`;
+    // A place that scrolls would hide an extension's text above the axis.
+    const below = own && top < tip.offsetHeight;
+    tip.style.transform = `translate(${left.toFixed(0)}px, ${below ? AXIS_PX + 4 : top}px) ` +
+      `translate(-50%, ${below ? 0 : -105}%)`;
   }
 
   /** Returns the upper edge and the text of the row at this place. */
