@@ -227,7 +227,7 @@ test('operations over a span receive the shown motion', () => {
     {do: 'curve@1', name: 'weight', keys: [{at_s: 0, value: 0}, {at_s: 2, value: 1}]});
 });
 
-test('a span is kept next to those that are kept', () => {
+test('a further span is added to a keep operation that follows', () => {
   const seen = view([FILTER]);
   assert.deepEqual(after(seen, keepSpan(seen, 1, 2))[1],
     {do: 'keep@1', spans: [{from_s: 1, to_s: 2}]});
@@ -326,7 +326,7 @@ test('an annotation of a tag or event moves with its operation', () => {
     {do: 'tag@1', text: 'walk', from_s: 1.6, to_s: 2});
   assert.deepEqual(after(seen, moveAnnotation(seen, beat, 1.25, 1.25))[2],
     {do: 'event@1', text: 'beat', at_s: 1.25});
-  const other = {text: 'of the source', start_s: 1, end_s: 1};
+  const other = {text: 'source note', start_s: 1, end_s: 1};
   assert.equal(moveAnnotation(seen, other, 2, 2)(seen.document.ops), null);
 });
 

@@ -80,13 +80,14 @@ function lastMoveTo(edits: readonly ContactEdit[], {foot, part, edge}: ContactEd
 
 /** True if one of the edits that follow depends on where a moved edge is. */
 function disturbs(later: readonly ContactEdit[], made: ContactEdit, old_s: number): boolean {
-  const low_s = Math.min(made.from_s, made.to_s, old_s) - EDGE_REACH_S;
-  const high_s = Math.max(made.from_s, made.to_s, old_s) + EDGE_REACH_S;
+  const times = [made.from_s, made.to_s, old_s];
+  const [low_s, high_s] = [Math.min(...times), Math.max(...times)];
   return later.some((one) => {
     if (one.foot !== made.foot || one.part !== made.part) return false;
-    // The other edges of contacts stay where they are.
-    if (one.do.startsWith('move_') && one.do !== made.do) return false;
-    return Math.min(one.from_s, one.to_s) <= high_s && Math.max(one.from_s, one.to_s) >= low_s;
+    // marey does not look for this edge when it moves the opposite ones.
+    const reach_s = one.do.startsWith('move_') && one.do !== made.do ? 0 : EDGE_REACH_S;
+    return Math.min(one.from_s, one.to_s) <= high_s + reach_s &&
+      Math.max(one.from_s, one.to_s) >= low_s - reach_s;
   });
 }
 

@@ -29,7 +29,7 @@ function has({keys}: OpWords, key: string): boolean {
   return [key, `${key}_s`, `${key}_frame`].some((name) => name in keys);
 }
 
-/** A cut has none: its span is what the ends of the motion show. */
+/** A cut has none: the handles at the ends of the motion are those of its span. */
 function spansOf(op: OpWords): NamedSpan[] {
   const name = opName(op);
   if (name === 'keep') {

@@ -53,7 +53,7 @@ export function trim(view: ShownView, from_s: number, to_s: number): Change {
   });
 }
 
-/** Changes the cut or keep before. null: there is none, or its times are not known. */
+/** Changes the preceding cut or keep. null: it does not exist, or its times are not known. */
 function changedCut(shown: Shown, from: number | null, to: number | null): OpStep[] | null {
   const {ops, until, output} = shown;
   const index = Math.max(lastOp(ops, until, 'cut'), lastOp(ops, until, 'keep'));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What can be dragged on the timeline: the ends of the motion, the instants of the selected
-// operation, edges of contacts and constraints, annotations. Knows no elements of the page.
+// Handles on the timeline: ends of the motion, instants of the selected operation, edges of
+// contacts and constraints, annotations. Knows no elements of the page.
 
 import {moveContactEdge} from './contact_patches';
 import type {Change} from './edit_document';
@@ -27,9 +27,9 @@ export interface Handle {
   readonly role: 'trim' | 'op' | 'mark' | 'edge';
   /** `start` and `end` of a span; `point`: an instant; `span`: both ends move. */
   readonly side: 'start' | 'end' | 'point' | 'span';
-  /** Where it is; of a span its first frame. May have a fraction. */
+  /** The frame that it moves; the first one of a span. May have a fraction. */
   readonly frame: number;
-  /** Where it is drawn, in frames from `frame`: bars include half a frame on each side. */
+  /** Distance at which it is drawn: bars include half a frame on each side. [frames] */
   readonly shift: number;
   /** Frames of a span. */
   readonly frames?: number;
@@ -39,7 +39,7 @@ export interface Handle {
   readonly name: string;
   /** Shows the changed motion during a drag. */
   readonly previews: boolean;
-  /** What happens at this frame; null: nothing. */
+  /** Returns the change that moves it to a frame; null: none. */
   change(frame: number): Change | null;
   /** Text instead of the time at this frame. */
   words?(frame: number): string | null;

@@ -19,7 +19,7 @@ const KINDS: readonly string[] = ['contacts', 'constraints', 'annotations'];
 /** A finger covers rows above and below. */
 const TOUCH_ROWS_PX = 12;
 
-/** A brushed span. `row`: of the contacts, or null. */
+/** A brushed span. `row`: the row of contacts that it is in, or null. */
 export interface Brush {from: number; to: number; row: number | null}
 
 export class TimelineTools implements TimelineExtension {

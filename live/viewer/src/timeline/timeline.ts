@@ -286,7 +286,7 @@ export class Timeline {
     this.letGo(false);
   };
 
-  /** Returns the words on what is under the pointer. */
+  /** Asks the extension about the place of a pointer. Returns its text. */
   private hover(event: PointerEvent | null): string | null {
     const {tools} = this.options;
     if (!tools || !this.data) return null;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What a page can add to a timeline: handles that are dragged, and a picture on top.
+// Extension of a timeline by a page: handles that are dragged, and a picture on top.
 
 import type {Band, Strip} from './timeline_paint';
 
@@ -62,7 +62,8 @@ export interface TimelineExtension {
   /** Asked when the pointer is pressed. null: the timeline seeks, as without an extension. A
    *  press that does not move seeks, too. */
   grab(place: TimelinePlace): Grip | null;
-  /** What is under a pointer that is not pressed; null when it has left. null: nothing. */
+  /** Returns the cursor and the text for a pointer that is not pressed. null as argument: it has
+   *  left; as result: no handle is near. */
   hover(place: TimelinePlace | null): {cursor: string; words: string | null} | null;
   /** Paints over the axis, the rows and the graphs, on an empty canvas. [CSS px] */
   paint(context: CanvasRenderingContext2D, layout: TimelineLayout): void;

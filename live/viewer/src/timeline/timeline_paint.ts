@@ -29,7 +29,7 @@ export interface Look {
 /** Rows that are drawn alike. */
 export interface Strip {
   rows: Rows;
-  /** What the rows are, for an extension of the timeline. */
+  /** Kind of the rows, for an extension of the timeline. */
   kind?: string;
   /** Colour of frames that are in no run. */
   base: string;
