@@ -98,10 +98,13 @@ for (const rate_hz of [30, 100, 120]) {
 
       function drag(view: ShownView, wanted: boolean[], runs: Runs):
         ReturnType<typeof moveContactEdge> {
-        const [first, last] = runs[below(runs.length)];
+        const at = below(runs.length);
+        const [first, last] = runs[at];
         const isStart = below(2) === 0;
         const from = isStart ? first : last;
-        const to = Math.min(Math.max(from + below(41) - 20, 0), FRAMES - 1);
+        // A contact that was joined to another appears again when the edge is moved back.
+        const to = Math.min(Math.max(from + below(41) - 20, (runs[at - 1]?.[1] ?? -2) + 2),
+          (runs[at + 1]?.[0] ?? FRAMES + 1) - 2);
         moveRun(wanted, [first, last], isStart ? to : first, isStart ? last : to);
         return moveContactEdge(view, {...HEEL, edge: isStart ? 'start' : 'end',
           other_s: (isStart ? last : first) / rate_hz}, from / rate_hz, to / rate_hz);

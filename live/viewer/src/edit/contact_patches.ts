@@ -47,7 +47,8 @@ function edit(kind: ContactEdit['do'], foot: Foot, part: FootPart, from_s: numbe
 }
 
 /** Moves an edge of a contact from `from_s`, where it is shown, to `to_s`. An edge that was
- *  moved before keeps its original time. Beyond the other edge, the contact is cleared. */
+ *  moved before keeps its original time, so a contact that it had reached appears again. Beyond
+ *  the other edge, the contact is cleared. */
 export function moveContactEdge(view: ShownView, contact: ContactEdge, from_s: number,
   to_s: number): Change {
   const {foot, part, edge, other_s} = contact;
@@ -63,7 +64,7 @@ export function moveContactEdge(view: ShownView, contact: ContactEdge, from_s: n
     const made = edit(kind, foot, part, origin_s, to_s);
     const isBack = Math.abs(made.to_s - made.from_s) < 1e-9;
     if (before < 0) return isBack ? edits : [...edits, made];
-    if (disturbs(edits.slice(before + 1), made, edits[before].to_s)) {
+    if (disturbs(edits.slice(before + 1), made, edits[before].to_s, rate_hz)) {
       return [...edits, edit(kind, foot, part, from_s, to_s)];
     }
     return isBack ? edits.filter((_, i) => i !== before)
@@ -79,13 +80,16 @@ function lastMoveTo(edits: readonly ContactEdit[], {foot, part, edge}: ContactEd
 }
 
 /** True if one of the edits that follow depends on where a moved edge is. */
-function disturbs(later: readonly ContactEdit[], made: ContactEdit, old_s: number): boolean {
+function disturbs(later: readonly ContactEdit[], made: ContactEdit, old_s: number,
+  rate_hz: number): boolean {
   const times = [made.from_s, made.to_s, old_s];
   const [low_s, high_s] = [Math.min(...times), Math.max(...times)];
   return later.some((one) => {
     if (one.foot !== made.foot || one.part !== made.part) return false;
     // marey does not look for this edge when it moves the opposite ones.
-    const reach_s = one.do.startsWith('move_') && one.do !== made.do ? 0 : EDGE_REACH_S;
+    const isOpposite = one.do.startsWith('move_') && one.do !== made.do;
+    // Contacts in adjacent frames are one contact.
+    const reach_s = 1.5 / rate_hz + (isOpposite ? 0 : EDGE_REACH_S);
     return Math.min(one.from_s, one.to_s) <= high_s + reach_s &&
       Math.max(one.from_s, one.to_s) >= low_s - reach_s;
   });
