@@ -31,6 +31,8 @@ export interface Strip {
   /** For tools that work on certain rows. */
   kind?: string;
   rows: Rows;
+  /** Kind of the rows, for an extension of the timeline. */
+  kind?: string;
   /** Colour of frames that are in no run. */
   base: string;
   /** Indexed by source. */
