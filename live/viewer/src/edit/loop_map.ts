@@ -35,6 +35,8 @@ export class LoopMap {
   private candidates: readonly LoopCandidateWords[] = [];
   private picture: HTMLCanvasElement | null = null;
   private rate_hz = 30;
+  /** Side of the map. [px] */
+  private size = 1;
   private end_mm = 1;
   private selected: Cell | null = null;
   private hovered: Cell | null = null;
@@ -80,18 +82,14 @@ export class LoopMap {
       column.hidden = !isShown;
       row.hidden = !isShown;
     }
-    if (!isShown || this.element.offsetParent === null) return;
-    const at = Math.min((time + 0.5) / (map.cells * map.cell_frames), 1) * this.size;
-    column.style.transform = `translate(${(LEFT_PX + at).toFixed(1)}px, ${TOP_PX}px)`;
-    column.style.height = `${at.toFixed(1)}px`;
+    if (!isShown) return;
+    // Transforms cost no layout.
+    const {size} = this;
+    const at = Math.min((time + 0.5) / (map.cells * map.cell_frames), 1) * size;
+    const x = (LEFT_PX + at).toFixed(1);
+    column.style.transform = `translate(${x}px, ${TOP_PX}px) scaleY(${at.toFixed(1)})`;
     row.style.transform =
-      `translate(${(LEFT_PX + at).toFixed(1)}px, ${(TOP_PX + at).toFixed(1)}px)`;
-    row.style.width = `${(this.size - at).toFixed(1)}px`;
-  }
-
-  /** Side of the map. [px] */
-  private get size(): number {
-    return Math.max(this.canvas.clientWidth - LEFT_PX - EDGE_PX, 1);
+      `translate(${x}px, ${(TOP_PX + at).toFixed(1)}px) scaleX(${(size - at).toFixed(1)})`;
   }
 
   private cellAt({offsetX, offsetY}: MouseEvent): Cell | null {
@@ -133,7 +131,10 @@ export class LoopMap {
     this.isWaiting = true;
     requestAnimationFrame(() => {
       this.isWaiting = false;
-      if (this.map && this.canvas.clientWidth > 0) this.paint(this.map);
+      const width = this.canvas.clientWidth;
+      if (!this.map || width === 0) return;
+      this.size = Math.max(width - LEFT_PX - EDGE_PX, 1);
+      this.paint(this.map);
     });
   }
 
