@@ -16,7 +16,7 @@ import type {Theme} from '../base/theme';
 /** The parts that are drawn; the user chooses them. */
 export interface Shown {
   skin: boolean; bones: boolean; uncertainty: boolean; balance: boolean; cameras: boolean;
-  handles: boolean; names: boolean; follow: boolean; colouring: Colouring;
+  handles: boolean; names: boolean; follow: boolean; ghost: boolean; colouring: Colouring;
 }
 
 /** The skin of a body. */
@@ -39,10 +39,11 @@ export class BodyView {
   private avatar: Skin | null = null;
   private readonly loading = new AbortController();
 
+  /** `isGhost`: drawn translucent, to compare another body with it. */
   constructor(readonly words: SkeletonWords, readonly pose: Pose, private readonly shown: Shown,
-    private readonly floor_m: number, isSolid: boolean) {
+    private readonly floor_m: number, isSolid: boolean, readonly isGhost = false) {
     this.skeleton = new SkeletonView(pose, words.offset_m, words.kind === 'performer',
-      words.skin !== null, isSolid ? words.joints.map(({bone}) => bone) : null);
+      words.skin !== null, isSolid ? words.joints.map(({bone}) => bone) : null, isGhost);
     this.balance = new BalanceView(words.offset_m);
     this.object.add(this.skeleton.object, this.balance.object);
     this.object.visible = false;
@@ -75,19 +76,19 @@ export class BodyView {
 
   /** Shows the body of this frame; hides it if the body is absent. */
   update(frame: SkeletonFrame): void {
-    this.object.visible = frame.hasPose;
+    this.object.visible = frame.hasPose && (this.shown.ghost || !this.isGhost);
     if (!frame.hasPose) return;
     this.present = true;
     this.pose.setFrame(frame);
     const skin = this.shown.skin && this.avatar !== null;
     this.skeleton.show(this.shown.bones || !skin, this.shown.uncertainty && frame.hasUncertainty,
-      this.shown.colouring);
+      this.isGhost ? 'plain' : this.shown.colouring);
     this.skeleton.update(frame, this.floor_m);
     if (this.avatar) {
       this.avatar.object.visible = skin;
       if (skin) this.avatar.update(this.pose);
     }
-    this.balance.object.visible = this.shown.balance && frame.hasBalance;
+    this.balance.object.visible = this.shown.balance && frame.hasBalance && !this.isGhost;
     if (this.balance.object.visible) this.balance.update(frame, this.floor_m);
   }
 

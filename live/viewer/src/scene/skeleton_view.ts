@@ -46,9 +46,9 @@ export class SkeletonView {
   private readonly scaled = new Color();
 
   /** `solid`: names of the joints' bones of a body that is drawn as a mannequin. `fleshed`: the
-   *  bones are seen through a skin. */
+   *  bones are seen through a skin. `isGhost`: translucent and without shadow. */
   constructor(pose: Pose, offset: Vector, performer: boolean, fleshed: boolean,
-    solid: readonly string[] | null = null) {
+    solid: readonly string[] | null = null, private readonly isGhost = false) {
     this.pose = pose;
     this.offset = offset;
     this.performer = performer;
@@ -82,12 +82,16 @@ export class SkeletonView {
       this.bones.renderOrder = 3;
       this.balls.renderOrder = 3;
     }
+    // Where nothing was changed, the ghost coincides with the body and is hidden by it.
+    if (isGhost) Object.assign(skin, {transparent: true, opacity: 0.4, polygonOffset: true,
+      polygonOffsetFactor: 4, polygonOffsetUnits: 4});
     this.object.add(this.shadow, this.bones, this.balls, this.uncertainty);
   }
 
   paint(theme: Theme): void {
     SOURCES.forEach((source, i) => this.sourceColours[i].setStyle(theme.colour(source)));
-    this.plain.setStyle(this.performer ? theme.colour('subject') : theme.colour('avatar'));
+    this.plain.setStyle(theme.colour(
+      this.isGhost ? 'quiet' : this.performer ? 'subject' : 'avatar'));
     this.shadow.material.color.setStyle(theme.colour('stage-shadow'));
   }
 
@@ -95,7 +99,8 @@ export class SkeletonView {
     this.colouring = colouring;
     this.bones.visible = bones;
     this.balls.visible = bones;
-    this.uncertainty.visible = uncertainty;
+    this.uncertainty.visible = uncertainty && !this.isGhost;
+    this.shadow.visible = !this.isGhost;
   }
 
   /** Draws the current pose. */

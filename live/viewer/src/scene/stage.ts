@@ -3,6 +3,7 @@
 
 // The scene: bodies, cameras, points, floor and handles.
 
+import type {Object3D} from 'three';
 import {BodyView} from './body_view';
 import type {Shown, SkinLoader} from './body_view';
 import {ConstraintView} from './constraint_view';
@@ -39,6 +40,14 @@ export interface StageListener {
   trouble(text: string): void;
 }
 
+/** An object of a page in its scene. */
+export interface StagePart {
+  readonly object: Object3D;
+  paint(theme: Theme): void;
+  /** Called before each picture. */
+  update(eye: Vector): void;
+}
+
 /** Parts of a scene; the page's own part may be added to `stage.renderer.scene`. */
 export type StageWords = Pick<SceneWords, 'skeletons' | 'cameras' | 'points' | 'floor' |
   'constraints'>;
@@ -50,6 +59,8 @@ export interface StageOptions extends RendererOptions {
   solid?: boolean;
   /** Length of the cameras' pyramids. */
   pyramid_m?: number;
+  /** Index of the skeleton that is drawn as a ghost. The view does not follow it. */
+  ghost?: number;
 }
 
 export class Stage {
@@ -57,12 +68,14 @@ export class Stage {
   readonly renderer: Renderer;
   readonly orbit: Orbit;
   readonly shown: Shown = {skin: true, bones: false, uncertainty: true, balance: true,
-    cameras: true, handles: true, names: true, follow: true, colouring: 'source'};
+    cameras: true, handles: true, names: true, follow: true, ghost: true,
+    colouring: 'source'};
   private readonly labels = new Labels();
   private readonly floor: Floor;
   private readonly rig = new RigView();
   private readonly handles = new ConstraintView();
   private readonly still = window.matchMedia('(prefers-reduced-motion: reduce)');
+  private readonly parts: StagePart[] = [];
   private bodies: BodyView[] = [];
   private points: PointsView | null = null;
   private readonly drags: HandleDrag | null;
@@ -97,7 +110,7 @@ export class Stage {
     this.floor.height_m = words.floor?.height_m ?? 0;
     this.bodies = words.skeletons.map((skeleton, i) => {
       const body = new BodyView(skeleton, poses?.[i] ?? new PosedSkeleton(skeleton), this.shown,
-        this.floor.height_m, this.options.solid ?? false);
+        this.floor.height_m, this.options.solid ?? false, i === this.options.ghost);
       if (skeleton.skin && this.options.load_skin) {
         void body.dress(this.options.load_skin, (trouble) => {
           if (trouble) this.listener.trouble(trouble);
@@ -115,6 +128,13 @@ export class Stage {
     this.paint();
   }
 
+  add(part: StagePart): void {
+    this.parts.push(part);
+    this.renderer.scene.add(part.object);
+    part.paint(this.theme);
+    this.renderer.invalidate();
+  }
+
   setConstraints(constraints: readonly ConstraintWords[]): void {
     this.handles.set(constraints, this.words?.skeletons ?? [], this.drags?.inHand ?? null);
     this.takeAlong();
@@ -125,7 +145,7 @@ export class Stage {
   show(frame: SceneFrame): void {
     this.bodies.forEach((body, i) => body.update(frame.skeletons[i]));
     this.takeAlong();
-    if (!this.framed && this.bodies.some((body) => body.present)) {
+    if (!this.framed && this.first()) {
       this.frameBodies(true, this.firstAzimuth());
     }
     this.follow();
@@ -144,6 +164,16 @@ export class Stage {
     this.follow();
   }
 
+  /** Returns the shown pose of a skeleton of the scene; null if it has not been present. */
+  poseOf(skeleton: number): Pose | null {
+    const body = this.bodies[skeleton];
+    return body?.present ? body.pose : null;
+  }
+
+  get floor_m(): number {
+    return this.floor.height_m;
+  }
+
   /** Redraws after a change of appearance without a new instant. */
   refresh(): void {
     this.renderer.invalidate();
@@ -151,7 +181,8 @@ export class Stage {
 
   /** Moves the eye so that all bodies are in the picture. */
   frameBodies(atOnce = false, azimuth = this.orbit.azimuth, height = this.orbit.height): void {
-    const places = this.bodies.filter((body) => body.present).flatMap((body) => {
+    const framed = this.bodies.filter((body) => body.present && !body.isGhost);
+    const places = framed.flatMap((body) => {
       const [dx, dy, dz] = body.words.offset_m;
       const p = body.pose.p_in_world;
       const moved: number[] = [];
@@ -193,13 +224,17 @@ export class Stage {
   /** Avoids a view along X, the direction of the row of bodies. */
   private firstAzimuth(): number {
     const heading = this.heading();
-    if (this.bodies.length < 2) return heading + 0.5;
+    if (this.bodies.filter((body) => !body.isGhost).length < 2) return heading + 0.5;
     return (Math.cos(heading) >= 0 ? 0 : Math.PI) + 0.35;
+  }
+
+  private first(): BodyView | undefined {
+    return this.bodies.find((body) => body.present && !body.isGhost);
   }
 
   /** Returns the place (x, z) to follow, which is that of the first body or the centre of all points. */
   private place(): [number, number] | null {
-    const body = this.bodies.find((one) => one.present);
+    const body = this.first();
     if (!body) return this.points?.middle() ?? null;
     return [body.pose.p_in_world[0], body.pose.p_in_world[2]];
   }
@@ -215,7 +250,7 @@ export class Stage {
 
   /** Returns the heading of the first body. */
   heading(): number {
-    return this.bodies.find((body) => body.present)?.pose.heading() ?? 0;
+    return this.first()?.pose.heading() ?? 0;
   }
 
   /** Returns the place of a handle on the canvas, for tests. */
@@ -225,7 +260,8 @@ export class Stage {
   }
 
   private paint(): void {
-    for (const part of [this.floor, this.rig, this.handles, this.points, ...this.bodies]) {
+    for (const part of [this.floor, this.rig, this.handles, this.points, ...this.bodies,
+      ...this.parts]) {
       part?.paint(this.theme);
     }
     this.renderer.paint(this.theme);
@@ -257,7 +293,9 @@ export class Stage {
     this.floor.place(x, z);
     this.rig.object.visible = this.shown.cameras;
     this.handles.object.visible = this.shown.handles;
-    this.handles.update(this.renderer.eye);
+    const {eye} = this.renderer;
+    this.handles.update(eye);
+    for (const part of this.parts) part.update(eye);
     this.renderer.render();
     this.placeLabels();
     this.listener.afterPicture();
@@ -268,7 +306,7 @@ export class Stage {
     labels.begin(width, height);
     if (this.shown.names && words) {
       for (const body of this.bodies) {
-        if (!body.object.visible) continue;
+        if (!body.object.visible || body.isGhost) continue;
         const [dx, dy, dz] = body.words.offset_m;
         const p = body.pose.p_in_world;
         labels.add(body.words.name, 'body', camera, p[0] + dx, body.top_m() + dy + NAME_ABOVE_M,
