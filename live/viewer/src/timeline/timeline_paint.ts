@@ -28,11 +28,9 @@ export interface Look {
 
 /** Rows that are drawn alike. */
 export interface Strip {
-  /** For tools that work on certain rows. */
-  kind?: string;
-  rows: Rows;
   /** Kind of the rows, for an extension of the timeline. */
   kind?: string;
+  rows: Rows;
   /** Colour of frames that are in no run. */
   base: string;
   /** Indexed by source. */
