@@ -3,10 +3,10 @@
 
 // The form of one operation. Typing previews, a finished value is committed, Escape restores.
 
-import {el, setText} from '../base/elements';
-import type {OpKeys, OpWords} from '../protocol/edit_protocol';
-import type {Change} from './edit_document';
-import type {EditView} from './edit_view';
+import {el, setText} from '../../base/elements';
+import type {OpKeys, OpWords} from '../../protocol/edit_protocol';
+import type {Change} from '../edit_document';
+import type {EditView} from '../edit_view';
 import {newId} from './field_parts';
 import type {FieldHost} from './field_parts';
 import {FieldSet} from './list_views';
@@ -70,6 +70,13 @@ export class OpForm {
       {class: 'op-more', open: isUsed}, el('summary', {}, 'More'), this.more.element),
     this.problem, this.names);
     this.show(true);
+  }
+
+  /** Ends a preview. */
+  close(): void {
+    this.pending = {};
+    this.opened += 1;
+    this.endPreview();
   }
 
   /** Shows new values of the same operation. What the user is typing stays. */
