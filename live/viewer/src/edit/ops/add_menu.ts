@@ -23,7 +23,7 @@ export class AddMenu {
       role: 'group', 'aria-label': title}, el('span', {class: 'op-menu-title'}, title),
     ...ops.map((op) => this.item(op, add)))), this.help);
     this.button = button({class: 'primary', 'aria-expanded': 'false',
-      onclick: () => this.set(this.menu.hidden)}, 'Add operation');
+      onclick: () => this.set(this.menu.hidden !== false)}, 'Add operation');
     this.element = el('div', {class: 'op-add'}, this.button, this.menu);
   }
 

@@ -45,8 +45,8 @@ export class FieldFrame {
       .includes(field.kind);
     const name = inputId === null ? el('span', {class: 'field-name', title: help}, label)
       : el('label', {class: 'field-name', title: help, for: inputId}, label);
-    this.element = el('div', {class: isWide ? 'field field-wide' : 'field', 'data-key': field.key,
-      role: inputId === null ? 'group' : null, 'aria-label': inputId === null ? label : null},
+    this.element = el('div', {class: `field field-${isWide ? 'wide' : field.kind}`,
+      'data-key': field.key, role: inputId === null ? 'group' : null, 'aria-label': inputId === null ? label : null},
     name, el('div', {class: 'field-content'}, ...content), this.error);
     this.tell('');
   }

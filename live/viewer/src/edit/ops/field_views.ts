@@ -173,6 +173,7 @@ class InstantView implements FieldView {
     const kind = this.instant?.kind ?? (this.field.required ? this.lastKind : '');
     const value = this.instant?.value;
     this.kind.value = kind;
+    this.element.dataset.instant = kind;
     // An emptied input of an optional instant stays open while it is typed in.
     for (const [entry, own] of [[this.seconds, 's'], [this.frames, 'frame'],
       [this.note, 'note']] as const) {

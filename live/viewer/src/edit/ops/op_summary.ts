@@ -43,6 +43,8 @@ function numbers(value: OpValue | undefined): string {
 
 function choiceWords(field: Field, value: OpValue): string {
   const words = String(value);
+  // The cut-off itself follows.
+  if (field.key === 'cutoff' && words === 'given') return '';
   if (BONES.includes(words)) return boneWords(words);
   if (typeof value === 'number' || field.key === 'drift') {
     return `${field.label.toLowerCase()} ${words}`;

@@ -71,12 +71,6 @@ export function originsOf(before: readonly Known[], after: readonly Known[]): Or
   return origins;
 }
 
-/** Returns the new index of the operation that was at `index`; null: it no longer exists. */
-export function followed(index: number | null, origins: Origins): number | null {
-  const place = index === null ? -1 : origins.indexOf(index);
-  return place < 0 ? null : place;
-}
-
 /** Returns the index for "move" of an operation that is dropped before another one. `before` =
  *  number of operations: at the end. null: it stays in place. */
 export function moveTarget(from: number, before: number): number | null {
