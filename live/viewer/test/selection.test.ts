@@ -14,7 +14,7 @@ const op = (text: string): {do: string; off: boolean; text: string} =>
 const list = (texts: string): ReturnType<typeof op>[] => texts ? texts.split(', ').map(op) : [];
 const origins = (before: string, after: string): number[] => originsOf(list(before), list(after));
 
-test('a patch says where operations come from', () => {
+test('the origins of operations are computed from a patch', () => {
   const cases: [OpStep[], number[]][] = [
     [[{insert: 1, op: {do: 'x'}}], [0, -1, 1, 2, 3]],
     [[{remove: 0}], [1, 2, 3]],

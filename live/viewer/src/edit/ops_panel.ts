@@ -265,8 +265,8 @@ export class OpsPanel {
     row.element.remove();
   }
 
-  /** Puts the rows into their order. The open row is not inserted again: its form keeps the
-   *  focus and what is typed. */
+  /** Puts the rows into their order. The open row is not inserted again, so that its form
+   *  keeps the focus and unfinished values. */
   private arrange(): void {
     const active = document.activeElement as HTMLElement | null;
     const pinned = this.open?.element.contains(active) ? this.open : this.rowAt(active);

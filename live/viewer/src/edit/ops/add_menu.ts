@@ -14,8 +14,8 @@ export class AddMenu {
   private readonly help = el('p', {class: 'hint', 'aria-live': 'polite'});
   private readonly items: [OpSchema, HTMLButtonElement][] = [];
 
-  /** `add` receives the name of an operation. `whyNot` says why it cannot be added. `place`
-   *  says where it is inserted. */
+  /** `add` receives the name of an operation. `whyNot` returns the reason if it cannot be
+   *  added, `place` a sentence about the place at which it is inserted. */
   constructor(add: (name: string) => void, private readonly whyNot: (name: string) => string,
     private readonly place: () => string) {
     this.menu = el('div', {class: 'op-menu', hidden: true, onkeydown: (event: KeyboardEvent) =>

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Frames of form fields, and inputs for numbers and text that tell typing from a finished value.
+// Frames of form fields, and inputs for numbers and text that separate typing from a finished
+// value.
 
 import {el, setText} from '../../base/elements';
 import type {Field} from './op_fields';
@@ -9,7 +10,7 @@ import {numberProblem, textProblem} from './op_values';
 import type {Changes, Keys, Problems} from './op_values';
 import type {Shown} from './new_op';
 
-/** What a field reports to, for the table of keys that it belongs to. */
+/** Receives the changes of the fields of one table of keys. */
 export interface FieldHost {
   /** New values of keys. `isDone`: false while the user types. */
   set(changes: Changes, isDone: boolean): void;
@@ -21,7 +22,7 @@ export interface FieldHost {
 export interface FieldView {
   readonly element: HTMLElement;
   /** Writes the value of the keys. An input that the user changes is only rewritten if
-   *  `isForced`. `prefix`: of the path of the keys in `problems`. */
+   *  `isForced`. The paths of the keys in `problems` begin with `prefix`. */
   show(keys: Keys, problems: Problems, prefix: string, isForced: boolean): void;
 }
 
@@ -46,12 +47,13 @@ export class FieldFrame {
     const name = inputId === null ? el('span', {class: 'field-name', title: help}, label)
       : el('label', {class: 'field-name', title: help, for: inputId}, label);
     this.element = el('div', {class: `field field-${isWide ? 'wide' : field.kind}`,
-      'data-key': field.key, role: inputId === null ? 'group' : null, 'aria-label': inputId === null ? label : null},
+      'data-key': field.key, role: inputId === null ? 'group' : null,
+      'aria-label': inputId === null ? label : null},
     name, el('div', {class: 'field-content'}, ...content), this.error);
     this.tell('');
   }
 
-  /** Shows what is wrong. */
+  /** Shows a mistake; empty: none. */
   tell(problem: string): void {
     setText(this.error, problem);
     this.error.hidden = problem === '';
@@ -67,7 +69,7 @@ export class FieldFrame {
 /** Input of a value. Subclasses say how a text is read. */
 export abstract class Entry<T extends number | string> {
   readonly input: HTMLInputElement;
-  /** What is wrong with the typed text; empty: nothing. */
+  /** The mistake in the typed text; empty: none. */
   problem = '';
   /** The user has changed the text, and the value has not been taken. */
   private isTyped = false;
@@ -173,7 +175,7 @@ export class VectorEntry {
     if (unit) this.element.append(el('span', {class: 'unit'}, unit));
   }
 
-  /** `id`: of the element that shows what is wrong. */
+  /** `id` belongs to the element that shows the mistake. */
   describe(id: string): void {
     for (const {input} of this.entries) input.setAttribute('aria-describedby', id);
   }

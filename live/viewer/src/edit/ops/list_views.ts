@@ -139,7 +139,7 @@ class PointsView implements FieldView {
       (wrong >= 0 ? `Point ${wrong + 1}: ${problems.get(`${path}.${wrong}`)}` : ''));
   }
 
-  /** Continues the path: two points at first, as one is not a path. */
+  /** Continues the path. A new path has two points, because one is not enough. */
   private next(): number[][] {
     const [a, b] = this.points.slice(-2);
     if (!a) return [[0, 0], [0, 1]];

@@ -9,7 +9,7 @@ import type {RowsField} from './op_fields';
 import {instantOf, rounded} from './op_values';
 import type {Keys} from './op_values';
 
-/** What the values of new keys come from. */
+/** Facts about the shown motion and the recipe, from which new keys get their values. */
 export interface Shown {
   /** Duration of the shown motion, and the shown instant. [s] */
   duration_s: number;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What an open operation shows below its row: actions, all figures, and its form.
+// Shows an open operation below its row: actions, all figures, and its form.
 
 import {button, el, keepRows, setText} from '../../base/elements';
 import {capitalized} from '../../base/words';

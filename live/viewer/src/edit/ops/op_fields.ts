@@ -15,7 +15,7 @@ interface Common {
   required: boolean;
   /** Value that the absence of the key means. */
   default?: number | string | boolean;
-  /** What the absence of the key means if it is not a value: "best frame". */
+  /** Meaning of the absence of the key if it is not a value: "best frame". */
   absent: string;
 }
 

@@ -79,7 +79,7 @@ export class OpForm {
     this.endPreview();
   }
 
-  /** Shows new values of the same operation. What the user is typing stays. */
+  /** Shows new values of the same operation. Values that the user is typing stay. */
   update(op: OpWords): void {
     if (this.op && this.op.do === op.do) {
       this.op = op;

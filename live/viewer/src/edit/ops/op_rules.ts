@@ -34,7 +34,7 @@ export const NEW_OBJECT: Keys =
   {name: 'box', min_m: [-0.5, 0, -0.5], max_m: [0.5, 1, 0.5]};
 const NEW_CUTOFF_HZ = 6;
 
-/** Returns the changes with those that follow from them. */
+/** Returns the changes, and the changes of other keys that they need. */
 export function completed(op: OpKeys, changes: Changes): Changes {
   const {name} = schemaOf(op);
   const all: Changes = {...changes};

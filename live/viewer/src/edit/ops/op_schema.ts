@@ -10,7 +10,7 @@ import type {Field} from './op_fields';
 export interface OpSchema {
   name: string;
   title: string;
-  /** What it does, in a line. */
+  /** Its effect, in a line. */
   help: string;
   fields: readonly Field[];
   /** Keys of all operations that it can use, besides `off` and `why`. */
@@ -88,26 +88,28 @@ const SHAPE: OpSchema[] = [
     ], common: ['span', 'groups', 'blend']},
   {name: 'pose', title: 'Pose key', help: 'Displaces a bone around one instant', fields: [
     at('At', need), bone, rotation,
-    vector('moved_m', 'Moved by', 'xyz', {help: 'Of a hand, a foot or the hips, in the world'}),
+    vector('moved_m', 'Moved by', 'xyz',
+      {help: 'Displacement of a hand, a foot or the hips in the world'}),
     number('width_s', 'Width', LIMITS.duration,
       {default: 0.5, help: 'Fade before and after the instant'}),
   ], common: []},
   {name: 'offset', title: 'Offset', help: 'Adds a constant rotation or displacement', fields: [
-    bone, rotation, vector('moved_m', 'Moved by', 'xyz', {help: 'Of a hand, a foot or the hips'}),
+    bone, rotation, vector('moved_m', 'Moved by', 'xyz',
+      {help: 'Displacement of a hand, a foot or the hips'}),
   ], common: ['span', 'blend']},
   {name: 'mirror', title: 'Mirror', help: 'Exchanges left and right', fields: [], common: []},
 ];
 
 const PLACE: OpSchema[] = [
   {name: 'place', title: 'Place', help: 'Moves and turns the whole motion on the floor',
-    fields: [vector('position_xz_m', 'Position', 'xz', {help: 'Of the root at the instant'}),
+    fields: [vector('position_xz_m', 'Position', 'xz', {help: 'Position of the root'}),
       number('heading_deg', 'Heading', LIMITS.turn,
         {help: 'Direction of travel: 0 is +Z, 90 is +X'}),
       at('At', {absent: 'first frame'})], common: ['span']},
   {name: 'path', title: 'Path', help: 'Bends the path of the root, with its footprints',
     fields: [points('points_xz_m', 'Points', 'xz'),
       number('turn_deg', 'Turn', LIMITS.turn,
-        {default: 0, help: 'Of the end against the start, positive to the left'}),
+        {default: 0, help: 'The end turns against the start, positive to the left'}),
       number('length', 'Length', LIMITS.factor, {default: 1, help: 'Factor of the length'}),
       plain('boolean', 'straight', 'Remove the turn first', {default: false})],
     common: ['span']},
@@ -194,7 +196,7 @@ export const OPS: readonly OpSchema[] = [...OP_MENU.flatMap(([, ops]) => ops),
 
 const BY_NAME = new Map(OPS.map((op) => [op.name, op]));
 
-/** Returns the operation of a text like cut@1; of an unknown one, a table without keys. */
+/** Returns the table of cut@1 and the like. An unknown operation has a table without keys. */
 export function schemaOf(op: {do: string}): OpSchema {
   const name = op.do.split('@')[0];
   return BY_NAME.get(name) ??

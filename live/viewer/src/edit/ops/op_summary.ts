@@ -129,8 +129,8 @@ function rank(name: string): number {
   return place < 0 ? FIRST.length : place;
 }
 
-/** Returns the figures of the reports of one operation, important ones first. Of several
- *  motions, the figure of the largest magnitude. */
+/** Returns the figures of the reports of one operation, important ones first. Several
+ *  motions have the figure of the largest magnitude. */
 export function figuresOf(reports: readonly OpReportWords[]): [string, number][] {
   const largest = new Map<string, number>();
   for (const {figures} of reports) {

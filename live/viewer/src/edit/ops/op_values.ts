@@ -11,7 +11,7 @@ import type {Field, NumberField} from './op_fields';
 export type Keys = Record<string, OpValue>;
 /** New values of keys; undefined removes one. */
 export type Changes = Record<string, OpValue | undefined>;
-/** What is wrong, by the path of a key: "knots.0.time_s". */
+/** Mistakes by the path of a key: "knots.0.time_s". */
 export type Problems = Map<string, string>;
 
 export type InstantKind = 's' | 'frame' | 'note';

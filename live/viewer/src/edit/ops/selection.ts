@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Where operations are after a change of the recipe.
+// Finds operations again after a change of the recipe.
 
 import type {OpStep, OpWords} from '../../protocol/edit_protocol';
 
