@@ -6,7 +6,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {rowsAbove} from '../src/edit/ops/op_drag';
-import {moveTarget, originsOf, originsOfPatch} from '../src/edit/ops/selection';
+import {haveSameTimes, moveTarget, originsOf, originsOfPatch} from '../src/edit/ops/selection';
 import type {OpStep} from '../src/protocol/edit_protocol';
 
 const op = (text: string): {do: string; off: boolean; text: string} =>
@@ -84,4 +84,13 @@ test('the place of a drop is found from the middles of the rows', () => {
   assert.equal(rowsAbove(5, middle, 31), 2);
   assert.equal(rowsAbove(5, middle, 1000), 5);
   assert.equal(rowsAbove(0, middle, 1000), 0);
+});
+
+test('instants are the same until an operation changes time', () => {
+  const ops = list('filter@1, cut@1, plant@1, retime@1').map((one, i) => ({...one, off: i === 3}));
+  assert.equal(haveSameTimes(ops, 0, 1), true);
+  assert.equal(haveSameTimes(ops, 0, 2), false);
+  assert.equal(haveSameTimes(ops, 2, 0), false);
+  assert.equal(haveSameTimes(ops, 2, 4), true);
+  assert.equal(haveSameTimes(ops, 1, 1), true);
 });

@@ -295,7 +295,7 @@ export class OpsPanel {
     const op = until ? this.ops[until - 1] : undefined;
     setText(this.lookWords, op ? `Shown: the motion after ${until} ${schemaOf(op).title}.`
       : 'Shown: the motion before all operations.');
-    this.detail.setLook(this.selected, until, this.rows.length);
+    this.detail.setLook(this.selected, until, this.ops);
   }
 
   private tell(progress: ProgressWords | null = null): void {

@@ -21,7 +21,7 @@ export class AddMenu {
     this.menu = el('div', {class: 'op-menu', hidden: true, onkeydown: (event: KeyboardEvent) =>
       this.key(event)}, ...OP_MENU.map(([title, ops]) => el('div', {class: 'op-menu-group',
       role: 'group', 'aria-label': title}, el('span', {class: 'op-menu-title'}, title),
-    ...ops.map((op) => this.item(op, add)))), this.help);
+    el('div', {class: 'row'}, ...ops.map((op) => this.item(op, add))))), this.help);
     this.button = button({class: 'primary', 'aria-expanded': 'false',
       onclick: () => this.set(this.menu.hidden !== false)}, 'Add operation');
     this.element = el('div', {class: 'op-add'}, this.button, this.menu);
@@ -42,15 +42,13 @@ export class AddMenu {
     this.menu.hidden = !isOpen;
     this.button.setAttribute('aria-expanded', String(isOpen));
     if (!isOpen) return;
-    setText(this.help, this.place());
     for (const [op, item] of this.items) {
       const why = this.whyNot(op.name);
       item.setAttribute('aria-disabled', String(why !== ''));
       item.title = why || op.help;
     }
-    this.items[0][1].focus({preventScroll: true});
+    this.items[0][1].focus();
     setText(this.help, this.place());
-    this.menu.scrollIntoView({block: 'nearest'});
   }
 
   private key(event: KeyboardEvent): void {

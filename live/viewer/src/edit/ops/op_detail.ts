@@ -8,13 +8,22 @@ import {capitalized} from '../../base/words';
 import type {OpReportWords, OpWords} from '../../protocol/edit_protocol';
 import {OpForm} from './op_form';
 import type {FormHost} from './op_form';
+import {commonFields, schemaOf} from './op_schema';
 import {figuresOf, figureWords} from './op_summary';
+import {haveSameTimes} from './selection';
 
 export interface DetailActions {
   move(by: -1 | 1): void;
   remove(): void;
   /** Shows the motion with this number of operations. */
   look(until: number): void;
+}
+
+/** True for an operation whose form has instants. */
+function hasInstants(op: OpWords): boolean {
+  const schema = schemaOf(op);
+  return [...schema.fields, ...commonFields(schema)].some((field) => field.kind === 'instant' ||
+    field.kind === 'constraint' || (field.kind === 'rows' && field.key !== 'objects'));
 }
 
 export class OpDetail {
@@ -27,6 +36,8 @@ export class OpDetail {
   private readonly figures = el('dl', {class: 'facts'});
   private readonly more = el('details', {class: 'op-more'}, el('summary', {}, 'Figures'),
     this.figures);
+  private readonly times = el('p', {class: 'hint', hidden: true},
+    'Instants are those of the motion before this operation. The shown motion has other times.');
   private isOpen = false;
 
   constructor(private readonly host: FormHost, actions: DetailActions) {
@@ -48,7 +59,7 @@ export class OpDetail {
         this.before, this.after, el('span', {class: 'spring'}), this.up, this.down,
         button({class: 'remove', title: 'Remove this operation (Delete)',
           onclick: () => actions.remove()}, 'Remove')),
-      this.form.element, this.more);
+      this.times, this.form.element, this.more);
   }
 
   open(op: OpWords, reports: readonly OpReportWords[]): void {
@@ -82,8 +93,11 @@ export class OpDetail {
   }
 
   /** `until`: number of operations of the shown motion; null: all. */
-  setLook(index: number | null, until: number | null, count: number): void {
+  setLook(index: number | null, until: number | null, ops: readonly OpWords[]): void {
+    const count = ops.length;
     const shown = until ?? count;
+    this.times.hidden = index === null || haveSameTimes(ops, index, shown) ||
+      !hasInstants(ops[index]);
     this.before.setAttribute('aria-pressed', String(index !== null && shown === index));
     this.after.setAttribute('aria-pressed', String(index !== null && shown === index + 1));
     this.up.disabled = index === 0;

@@ -84,7 +84,7 @@ export class OpRow {
     if (reported === this.reported) return;
     this.reported = reported;
     const words = figuresOf(reports).slice(0, SHOWN_FIGURES).map(([name, value]) =>
-      figureWords(name, value).join(' '));
+      figureWords(name, value).join(' ').replaceAll(' ', '\u00a0'));
     setText(this.figures, words.join(' · '));
     this.figures.hidden = words.length === 0;
     const findings = findingsOf(reports);

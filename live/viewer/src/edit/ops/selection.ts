@@ -77,3 +77,13 @@ export function moveTarget(from: number, before: number): number | null {
   const to = before > from ? before - 1 : before;
   return to === from ? null : to;
 }
+
+const TIME_CHANGES = new Set(['cut', 'keep', 'split', 'splice', 'retime', 'scale_time', 'cyclify']);
+
+/** True if instants are the same in the motions that have the first `a` and the first `b`
+ *  operations. */
+export function haveSameTimes(ops: readonly Pick<OpWords, 'do' | 'off'>[], a: number, b: number):
+  boolean {
+  return ops.slice(Math.min(a, b), Math.max(a, b)).every((op) =>
+    op.off || !TIME_CHANGES.has(op.do.split('@')[0]));
+}
