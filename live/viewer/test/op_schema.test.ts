@@ -6,9 +6,9 @@
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import test from 'node:test';
-import {CONSTRAINT_TYPES, constraintFields} from '../src/edit/ops/constraint_schema';
-import type {Field} from '../src/edit/ops/op_fields';
-import {COMMON, GROUPS, OP_MENU, OPS} from '../src/edit/ops/op_schema';
+import {CONSTRAINT_TYPES, constraintFields} from '../src/ops/constraint_schema';
+import type {Field} from '../src/ops/op_fields';
+import {COMMON, GROUPS, OP_MENU, OPS} from '../src/ops/op_schema';
 
 const page = readFileSync(new URL('../../../docs/formats/edit_recipe.md', import.meta.url), 'utf8');
 

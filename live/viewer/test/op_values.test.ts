@@ -6,15 +6,15 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {constraintFields, constraintOfType, CONSTRAINT_TYPES} from
-  '../src/edit/ops/constraint_schema';
-import {newConstraint, newOp, newRow, shownOf, whyNot} from '../src/edit/ops/new_op';
-import type {Shown} from '../src/edit/ops/new_op';
-import type {RowsField} from '../src/edit/ops/op_fields';
-import {changedOp, checkOp, completed} from '../src/edit/ops/op_rules';
-import {OPS, schemaOf} from '../src/edit/ops/op_schema';
-import {figuresOf, figureWords, summaryOf} from '../src/edit/ops/op_summary';
-import {instantChanges, quaternionOf, rotationOf} from '../src/edit/ops/op_values';
-import type {Changes, Problems} from '../src/edit/ops/op_values';
+  '../src/ops/constraint_schema';
+import {newConstraint, newOp, newRow, shownOf, whyNot} from '../src/ops/new_op';
+import type {Shown} from '../src/ops/new_op';
+import type {RowsField} from '../src/ops/op_fields';
+import {changedOp, checkOp, completed} from '../src/ops/op_rules';
+import {OPS, schemaOf} from '../src/ops/op_schema';
+import {figuresOf, figureWords, summaryOf} from '../src/ops/op_summary';
+import {instantChanges, quaternionOf, rotationOf} from '../src/ops/op_values';
+import type {Changes, Problems} from '../src/ops/op_values';
 import type {OpKeys, OutputWords} from '../src/protocol/edit_protocol';
 
 const set = (op: OpKeys, changes: Changes): OpKeys => changedOp(op, completed(op, changes));

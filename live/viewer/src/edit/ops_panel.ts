@@ -8,17 +8,17 @@ import {plural} from '../base/words';
 import {Section} from '../panels/panels';
 import type {OpReportWords, OpStep, OpWords, ProgressWords, RenderedParts, RevisionWords} from
   '../protocol/edit_protocol';
-import {AddMenu} from './ops/add_menu';
+import {AddMenu} from '../ops/add_menu';
 import {insertIndex} from './edit_view';
 import type {EditView} from './edit_view';
-import {newOp, shownOf, whyNot} from './ops/new_op';
-import type {Shown} from './ops/new_op';
-import {OpDetail} from './ops/op_detail';
-import {OpDrag} from './ops/op_drag';
-import {OpRow} from './ops/op_row';
-import {schemaOf} from './ops/op_schema';
-import {moveTarget, originsOf, originsOfPatch} from './ops/selection';
-import type {Origins} from './ops/selection';
+import {newOp, shownOf, whyNot} from '../ops/new_op';
+import type {Shown} from '../ops/new_op';
+import {OpDetail} from '../ops/op_detail';
+import {OpDrag} from '../ops/op_drag';
+import {OpRow} from '../ops/op_row';
+import {schemaOf} from '../ops/op_schema';
+import {moveTarget, originsOf, originsOfPatch} from '../ops/selection';
+import type {Origins} from '../ops/selection';
 
 type Steps = (ops: readonly OpWords[]) => OpStep[] | null;
 

@@ -3,7 +3,7 @@
 
 // Finds operations again after a change of the recipe.
 
-import type {OpStep, OpWords} from '../../protocol/edit_protocol';
+import type {OpStep, OpWords} from '../protocol/edit_protocol';
 
 /** For each operation of the new list, its index in the old one; −1: it is new. */
 export type Origins = number[];

@@ -3,7 +3,7 @@
 
 // Values of keys: reading, changing and checking them.
 
-import type {OpValue} from '../../protocol/edit_protocol';
+import type {OpValue} from '../protocol/edit_protocol';
 import {constraintFields} from './constraint_schema';
 import {MAX_FRAME, MAX_TEXT_BYTES, recipeKeys, ROTATION_DEG} from './op_fields';
 import type {Field, NumberField} from './op_fields';

@@ -3,9 +3,9 @@
 
 // One operation in the list. Every setter compares first: a list of thousands is written often.
 
-import {el, setText} from '../../base/elements';
-import {capitalized} from '../../base/words';
-import type {FindingWords, OpReportWords, OpWords} from '../../protocol/edit_protocol';
+import {el, setText} from '../base/elements';
+import {capitalized} from '../base/words';
+import type {FindingWords, OpReportWords, OpWords} from '../protocol/edit_protocol';
 import {schemaOf} from './op_schema';
 import {figuresOf, figureWords, findingsOf, summaryOf} from './op_summary';
 

@@ -3,10 +3,10 @@
 
 // The form of one operation. Typing previews, a finished value is committed, Escape restores.
 
-import {el, setText} from '../../base/elements';
-import type {OpKeys, OpWords} from '../../protocol/edit_protocol';
-import type {Change} from '../edit_document';
-import type {EditView} from '../edit_view';
+import {el, setText} from '../base/elements';
+import type {OpKeys, OpWords} from '../protocol/edit_protocol';
+import type {Change} from '../edit/edit_document';
+import type {EditView} from '../edit/edit_view';
 import {newId} from './field_parts';
 import type {FieldHost} from './field_parts';
 import {FieldSet} from './list_views';

@@ -3,8 +3,8 @@
 
 // Form fields of single values: numbers, choices, instants, rotations, parts of the body.
 
-import {button, checkbox, el} from '../../base/elements';
-import {boneWords} from '../../base/words';
+import {button, checkbox, el} from '../base/elements';
+import {boneWords} from '../base/words';
 import {FieldFrame, newId, NumberEntry, TextEntry, VectorEntry} from './field_parts';
 import type {FieldHost, FieldView} from './field_parts';
 import {MAX_FRAME, recipeKeys, ROTATION_DEG} from './op_fields';

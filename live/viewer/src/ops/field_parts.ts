@@ -4,7 +4,7 @@
 // Frames of form fields, and inputs for numbers and text that separate typing from a finished
 // value.
 
-import {el, setText} from '../../base/elements';
+import {el, setText} from '../base/elements';
 import type {Field} from './op_fields';
 import {numberProblem, textProblem} from './op_values';
 import type {Changes, Keys, Problems} from './op_values';

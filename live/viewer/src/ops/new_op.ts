@@ -3,7 +3,7 @@
 
 // Operations and rows of lists as they are added: valid at once, with values of the shown motion.
 
-import type {OpKeys, OutputWords, RevisionWords} from '../../protocol/edit_protocol';
+import type {OpKeys, OutputWords, RevisionWords} from '../protocol/edit_protocol';
 import {NEW_OBJECT} from './op_rules';
 import type {RowsField} from './op_fields';
 import {instantOf, rounded} from './op_values';

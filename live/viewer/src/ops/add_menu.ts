@@ -3,7 +3,7 @@
 
 // The menu that adds an operation.
 
-import {button, el, setText} from '../../base/elements';
+import {button, el, setText} from '../base/elements';
 import {OP_MENU} from './op_schema';
 import type {OpSchema} from './op_schema';
 

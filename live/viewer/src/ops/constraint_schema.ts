@@ -3,7 +3,7 @@
 
 // Keys of [op.constraint] of constrain@1, as in docs/formats/edit_recipe.md.
 
-import type {OpValue} from '../../protocol/edit_protocol';
+import type {OpValue} from '../protocol/edit_protocol';
 import {choice, LIMITS, number, plain, recipeKeys, text, vector} from './op_fields';
 import type {Field} from './op_fields';
 

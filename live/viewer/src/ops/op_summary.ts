@@ -3,8 +3,8 @@
 
 // Operations and their figures in short words.
 
-import {boneWords, fixed} from '../../base/words';
-import type {FindingWords, OpKeys, OpReportWords, OpValue} from '../../protocol/edit_protocol';
+import {boneWords, fixed} from '../base/words';
+import type {FindingWords, OpKeys, OpReportWords, OpValue} from '../protocol/edit_protocol';
 import {recipeKeys} from './op_fields';
 import type {Field} from './op_fields';
 import {BONES, schemaOf} from './op_schema';

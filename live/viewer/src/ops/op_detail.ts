@@ -3,9 +3,9 @@
 
 // Shows an open operation below its row: actions, all figures, and its form.
 
-import {button, el, keepRows, setText} from '../../base/elements';
-import {capitalized} from '../../base/words';
-import type {OpReportWords, OpWords} from '../../protocol/edit_protocol';
+import {button, el, keepRows, setText} from '../base/elements';
+import {capitalized} from '../base/words';
+import type {OpReportWords, OpWords} from '../protocol/edit_protocol';
 import {OpForm} from './op_form';
 import type {FormHost} from './op_form';
 import {commonFields, schemaOf} from './op_schema';

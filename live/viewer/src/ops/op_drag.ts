@@ -3,7 +3,7 @@
 
 // Changing the order of a list by dragging its rows.
 
-import {el} from '../../base/elements';
+import {el} from '../base/elements';
 
 export interface DragHandlers {
   /** The row would be inserted before this index. */

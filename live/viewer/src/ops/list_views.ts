@@ -3,8 +3,8 @@
 
 // Form fields of lists and tables, and the set of fields of a table.
 
-import {button, el} from '../../base/elements';
-import type {OpValue} from '../../protocol/edit_protocol';
+import {button, el} from '../base/elements';
+import type {OpValue} from '../protocol/edit_protocol';
 import {constraintFields, constraintOfType} from './constraint_schema';
 import {FieldFrame, VectorEntry} from './field_parts';
 import type {FieldHost, FieldView} from './field_parts';

@@ -4,7 +4,7 @@
 // Rules between the keys of an operation: keys that exclude or need each other. A change that
 // breaks one by itself is completed, so that the operation stays valid.
 
-import type {OpKeys, OpValue} from '../../protocol/edit_protocol';
+import type {OpKeys, OpValue} from '../protocol/edit_protocol';
 import {recipeKeys} from './op_fields';
 import {COMMON, schemaOf} from './op_schema';
 import {checkKeys, instantOf, isLater, tablesOf, withChanges} from './op_values';
