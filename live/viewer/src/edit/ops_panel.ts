@@ -13,7 +13,7 @@ import {insertIndex} from './edit_view';
 import type {EditView} from './edit_view';
 import {newOp, shownOf, whyNot} from '../ops/new_op';
 import type {Shown} from '../ops/new_op';
-import {OpDetail} from '../ops/op_detail';
+import {OpDetail} from './op_detail';
 import {OpDrag} from '../ops/op_drag';
 import {OpRow} from '../ops/op_row';
 import {schemaOf} from '../ops/op_schema';

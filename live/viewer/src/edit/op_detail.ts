@@ -8,9 +8,9 @@ import {capitalized} from '../base/words';
 import type {OpReportWords, OpWords} from '../protocol/edit_protocol';
 import {OpForm} from './op_form';
 import type {FormHost} from './op_form';
-import {commonFields, schemaOf} from './op_schema';
-import {figuresOf, figureWords} from './op_summary';
-import {haveSameTimes} from './selection';
+import {commonFields, schemaOf} from '../ops/op_schema';
+import {figuresOf, figureWords} from '../ops/op_summary';
+import {haveSameTimes} from '../ops/selection';
 
 export interface DetailActions {
   move(by: -1 | 1): void;

@@ -5,17 +5,17 @@
 
 import {el, setText} from '../base/elements';
 import type {OpKeys, OpWords} from '../protocol/edit_protocol';
-import type {Change} from '../edit/edit_document';
-import type {EditView} from '../edit/edit_view';
-import {newId} from './field_parts';
-import type {FieldHost} from './field_parts';
-import {FieldSet} from './list_views';
-import {changedOp, checkOp, completed, isIdleField} from './op_rules';
-import {commonFields, COMMON, schemaOf} from './op_schema';
-import {recipeKeys} from './op_fields';
-import {same} from './op_values';
-import type {Changes} from './op_values';
-import type {Shown} from './new_op';
+import type {Change} from './edit_document';
+import type {EditView} from './edit_view';
+import {newId} from '../ops/field_parts';
+import type {FieldHost} from '../ops/field_parts';
+import {FieldSet} from '../ops/list_views';
+import {changedOp, checkOp, completed, isIdleField} from '../ops/op_rules';
+import {commonFields, COMMON, schemaOf} from '../ops/op_schema';
+import {recipeKeys} from '../ops/op_fields';
+import {same} from '../ops/op_values';
+import type {Changes} from '../ops/op_values';
+import type {Shown} from '../ops/new_op';
 
 export interface FormHost {
   readonly view: EditView;
