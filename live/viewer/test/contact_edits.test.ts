@@ -6,8 +6,8 @@
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {clearContact, moveContactEdge, setContact} from '../src/edit/contact_patches';
-import type {ShownView} from '../src/edit/op_times';
+import {clearContact, moveContactEdge, setContact} from '../src/edit_time/contact_patches';
+import type {ShownView} from '../src/edit_time/op_times';
 import type {OpKeys, OpStep} from '../src/protocol/edit_protocol';
 
 const FRAMES = 300;

@@ -5,15 +5,15 @@
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {clearContact, moveContactEdge, setContact} from '../src/edit/contact_patches';
+import {clearContact, moveContactEdge, setContact} from '../src/edit_time/contact_patches';
 import type {Change} from '../src/edit/edit_document';
-import type {ShownView} from '../src/edit/op_times';
-import {annotationTime, offset_s, shownBy, withInstant, withTable} from '../src/edit/op_times';
+import type {ShownView} from '../src/edit_time/op_times';
+import {annotationTime, offset_s, shownBy, withInstant, withTable} from '../src/edit_time/op_times';
 import {
   addCurve, addOverSpan, keepSpan, moveAnnotation, moveConstraintTime, moveInstants, moveSpanOf,
   removeSpan, trim,
-} from '../src/edit/patches';
-import {handlesIn, handleWords} from '../src/edit/timeline_handles';
+} from '../src/edit_time/patches';
+import {handlesIn, handleWords} from '../src/edit_time/timeline_handles';
 import type {OpKeys, OpStep, OpWords, OutputWords} from '../src/protocol/edit_protocol';
 
 const OFF = Symbol('off');

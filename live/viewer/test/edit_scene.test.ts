@@ -6,11 +6,11 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import type {Change} from '../src/edit/edit_document';
-import {opToChange} from '../src/edit/op_to_change';
+import {opToChange} from '../src/edit_scene/op_to_change';
 import {pathOpWithPoints, pointsChange, pointsOf, shapeChange, shownShape} from
-  '../src/edit/path_changes';
+  '../src/edit_scene/path_changes';
 import {constraintChange, isActiveAt, newConstraint, newConstraintName, poseChange} from
-  '../src/edit/pose_changes';
+  '../src/edit_scene/pose_changes';
 import type {EditConstraintWords, OpKeys, OpStep, OpWords} from '../src/protocol/edit_protocol';
 import type {SceneFrame} from '../src/protocol/decode_frame';
 import type {JointWords, SkeletonWords, Vector} from '../src/protocol/protocol';

@@ -8,7 +8,7 @@ import test from 'node:test';
 import {
   cellOfCycle, cyclifyAt, cycleOfCell, distanceAt, loopChange, loopsUntil, motionKey,
   nearestMinimum, scaleEnd_mm, tickStep,
-} from '../src/edit/loop_search';
+} from '../src/edit_scene/loop_search';
 import type {LoopCandidateWords, LoopMapWords, OpKeys, OpWords} from
   '../src/protocol/edit_protocol';
 

@@ -45,7 +45,7 @@ class TestPage {
         return Promise.resolve(steps !== null);
       },
       cancel: () => { this.calls.push(['cancel', null]); }};
-    this.panel = new OpsPanel(view as unknown as EditView, {lookAt: (until) => {
+    this.panel = new OpsPanel(view as unknown as EditView, {selected: () => {}, lookAt: (until) => {
       this.calls.push(['look', until]);
       this.panel.setLook(until);
     }});

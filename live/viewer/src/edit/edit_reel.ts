@@ -20,6 +20,7 @@ export class EditReel {
   private skeletons: readonly SkeletonWords[] = [];
   private whole: MotionPart | null = null;
   private preview: MotionPart | null = null;
+  private loading = new AbortController();
 
   /** The shown instant, after compose(). */
   get shown(): SceneFrame {
@@ -34,10 +35,20 @@ export class EditReel {
     this.preview = null;
   }
 
-  /** Fetches the frames of an output, without using them yet. Throws an Error with the cause. */
-  async fetch({block, span}: OutputWords, signal: AbortSignal): Promise<MotionPart> {
-    return {block: new MotionBlock(await fetched(block, signal), new SceneFrame(this.skeletons)),
-      span};
+  /** Fetches the frames of an output, without using them yet. null: frames that were requested
+   *  later replace them. Throws an Error with the cause. */
+  async fetch({block, span}: OutputWords): Promise<MotionPart | null> {
+    this.loading.abort();
+    this.loading = new AbortController();
+    const {signal} = this.loading;
+    try {
+      const bytes = await fetched(block, signal);
+      return signal.aborted ? null
+        : {block: new MotionBlock(bytes, new SceneFrame(this.skeletons)), span};
+    } catch (problem) {
+      if (signal.aborted) return null;
+      throw problem;
+    }
   }
 
   /** Shows these frames. The instant stays, as far as the motion has it. */

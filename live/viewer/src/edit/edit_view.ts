@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What tools of the edit page know about the shown motion, and what they do with it.
+// The shown motion, as tools of the edit page see and change it.
 
 import type {Change, EditDocument} from './edit_document';
-import type {OpStep, OpWords, OutputWords} from '../protocol/edit_protocol';
+import type {OpStep, OpWords, OutputWords, PreviewParts} from '../protocol/edit_protocol';
 
 /** The shown motion and the way to change it. Implemented by the page. */
 export interface EditView {
@@ -48,4 +48,17 @@ export function untilAfter(steps: readonly OpStep[], until: number): number {
     }
   }
   return end;
+}
+
+/** Frames before and after the shown one that a preview contains. */
+const PREVIEW_FRAMES = 150;
+
+/** Returns which part of a changed motion is rendered. `until`: as in EditView.preview(). */
+export function previewParts(steps: readonly OpStep[],
+  view: Pick<EditView, 'until' | 'outputIndex' | 'time'>, until?: number | null): PreviewParts {
+  const frame = Math.round(view.time);
+  const end = until !== undefined ? until
+    : view.until === null ? null : untilAfter(steps, view.until);
+  return {until: end, output: view.outputIndex,
+    span: [Math.max(frame - PREVIEW_FRAMES, 0), frame + PREVIEW_FRAMES]};
 }

@@ -47,7 +47,7 @@ export class OpsPanel {
   private sent: {parent: number; count: number; steps: readonly OpStep[]} | null = null;
 
   constructor(private readonly view: EditView,
-    private readonly looks: {lookAt(until: number | null): void}) {
+    private readonly looks: {lookAt(until: number | null): void; selected(): void}) {
     this.menu = new AddMenu((name) => void this.add(name),
       (name) => whyNot(name, this.shown(), this.ops), () => this.insertWords());
     this.detail = new OpDetail({view, index: () => this.selected, shown: () => this.shown()}, {
@@ -132,6 +132,7 @@ export class OpsPanel {
     this.open?.setDetail(null);
     this.open = row;
     this.detail.close();
+    this.looks.selected();
     if (!row?.op) return;
     row.setDetail(this.detail.element);
     this.setTabStop(row);

@@ -4,7 +4,7 @@
 // Opens the page that fits what marey serves: a session, a recording, or an edit.
 
 import {el} from '../base/elements';
-import {EditPage} from '../edit/edit_page';
+import {EditPage} from './edit_page';
 import {Connection} from '../protocol/connection';
 import type {Listener} from '../protocol/connection';
 import {EDIT_TYPES} from '../protocol/edit_protocol';

@@ -5,7 +5,10 @@
 
 import {el} from '../base/elements';
 
-const KEYS: [string[], string][] = [
+/** Keys or gestures, and what they do. */
+export type KeyHelp = readonly [readonly string[], string];
+
+const KEYS: KeyHelp[] = [
   [['space'], 'play, pause'], [['←', '→'], 'one frame back, forward'],
   [['shift ←', 'shift →'], 'one second back, forward'],
   [['home', 'end'], 'first, last frame (live: now)'], [['L'], 'loop'],
@@ -22,14 +25,16 @@ const KEYS: [string[], string][] = [
 export class Help {
   readonly button = el('button', {type: 'button', class: 'icon', title: 'Keys and gestures (?)',
     'aria-label': 'Keys and gestures', onclick: () => this.toggle()}, '?');
-  private readonly dialog = el('dialog', {class: 'help', 'aria-labelledby': 'help-title'},
-    el('h2', {id: 'help-title', tabindex: -1, autofocus: true}, 'Keys and gestures'),
-    el('dl', {}, ...KEYS.flatMap(([keys, what]) =>
-      [el('dt', {}, ...keys.flatMap((key) => [el('kbd', {}, key), ' '])),
-        el('dd', {}, what)])),
-    el('form', {method: 'dialog'}, el('button', {class: 'primary'}, 'Close')));
+  private readonly dialog: HTMLDialogElement;
 
-  constructor() {
+  /** `more`: keys of this page. */
+  constructor(more: readonly KeyHelp[] = []) {
+    this.dialog = el('dialog', {class: 'help', 'aria-labelledby': 'help-title'},
+      el('h2', {id: 'help-title', tabindex: -1, autofocus: true}, 'Keys and gestures'),
+      el('dl', {}, ...[...KEYS, ...more].flatMap(([keys, what]) =>
+        [el('dt', {}, ...keys.flatMap((key) => [el('kbd', {}, key), ' '])),
+          el('dd', {}, what)])),
+      el('form', {method: 'dialog'}, el('button', {class: 'primary'}, 'Close')));
     document.body.append(this.dialog);
     this.dialog.addEventListener('click', (event) => {
       // A click outside the box, on the backdrop.

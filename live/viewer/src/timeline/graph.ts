@@ -51,7 +51,7 @@ export class Graph {
   private gutter = 0;
   private y: [number, number] = [0, 1];
 
-  constructor(readonly data: GraphData, theme: Theme, height: number) {
+  constructor(public data: GraphData, theme: Theme, height: number) {
     const tall = height > TALL_PX;
     this.element.append(el('span', {class: 'name'}, tall ? ''
       : data.unit ? `${data.name} [${data.unit}]` : data.name));
@@ -69,6 +69,12 @@ export class Graph {
         stroke: () => theme.colour(colour ?? 'accent'),
         points: {size: 3, filter: (u: uPlot, i: number) => (dash ? [] : lonePoints(u, i))}}))],
     }, [[]], this.element);
+  }
+
+  /** True if show() can draw these data, too, after they replaced `data`. */
+  fits({name, unit, curves}: GraphData): boolean {
+    return name === this.data.name && unit === this.data.unit &&
+      curves.length === this.data.curves.length;
   }
 
   /** Draws frames `from` to `to`; `width` includes the gutter. */

@@ -16,6 +16,8 @@ export class Playback {
   playing = false;
   /** Live: always shows the newest frame. */
   following = false;
+  /** Frames that are played again and again, both included; null: all. Ends with a jump. */
+  cycle: readonly [number, number] | null = null;
   /** Number of jumps by the user. */
   seeks = 0;
 
@@ -32,6 +34,7 @@ export class Playback {
 
   seek(time: number): void {
     this.following = false;
+    this.cycle = null;
     ++this.seeks;
     this.time = this.clamped(time);
   }
@@ -40,6 +43,13 @@ export class Playback {
   step(count: number): void {
     this.playing = false;
     this.seek(this.frame + count);
+  }
+
+  /** Plays the frames `first` to `last` again and again. */
+  playCycle(first: number, last: number): void {
+    this.seek(first);
+    this.cycle = [this.clamped(first), this.clamped(last)];
+    this.playing = true;
   }
 
   play(): void {
@@ -62,15 +72,16 @@ export class Playback {
    *  frame (`live`) or stops. */
   advance(seconds: number, live: boolean): void {
     if (!this.playing || this.following) return;
-    const length = this.last - this.first;
+    const [first, last] = this.cycle ?? [this.first, this.last];
+    const length = last - first;
     this.time += seconds * this.rate_hz * this.speed;
-    if (this.time <= this.last) return;
+    if (this.time <= last) return;
     if (live) {
       this.follow();
-    } else if (this.loop && length > 0) {
-      this.time = this.first + (this.time - this.first) % length;
+    } else if ((this.loop || this.cycle) && length > 0) {
+      this.time = first + (this.time - first) % length;
     } else {
-      this.time = this.last;
+      this.time = last;
       this.playing = false;
     }
   }

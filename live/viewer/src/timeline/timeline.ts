@@ -68,8 +68,12 @@ export class Timeline {
 
   load(data: TimelineData): void {
     this.data = data;
-    this.graphs = data.graphs.map((graph) =>
-      new Graph(graph, this.theme, this.options.graph_px ?? GRAPH_PX));
+    this.graphs = data.graphs.map((graph, i) => {
+      const old = this.graphs[i];
+      if (!old?.fits(graph)) return new Graph(graph, this.theme, this.options.graph_px ?? GRAPH_PX);
+      old.data = graph;
+      return old;
+    });
     this.plots.replaceChildren(...this.graphs.map(({element}) => element));
     this.fold(this.folded);
   }

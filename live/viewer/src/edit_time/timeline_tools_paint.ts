@@ -5,7 +5,7 @@
 
 import type {TimelineLayout} from '../timeline/timeline_extension';
 import {AXIS_PX} from '../timeline/timeline_paint';
-import type {EditView} from './edit_view';
+import type {EditView} from '../edit/edit_view';
 import {spansOfOp} from './op_handles';
 import {shownBy} from './op_times';
 import type {Handle} from './timeline_handles';

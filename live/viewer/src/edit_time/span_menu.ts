@@ -6,8 +6,8 @@
 import {button, chooser, el} from '../base/elements';
 import {fixed} from '../base/words';
 import {clearContact, setContact} from './contact_patches';
-import type {Change} from './edit_document';
-import type {EditView} from './edit_view';
+import type {Change} from '../edit/edit_document';
+import type {EditView} from '../edit/edit_view';
 import {addCurve, addOverSpan, keepSpan, removeSpan, trim} from './patches';
 
 const GAP_PX = 6;

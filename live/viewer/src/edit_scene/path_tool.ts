@@ -4,7 +4,7 @@
 // The tool for the path: shows the way of the hips on the floor, and changes it by points
 // that are dragged, by a turn, or by its length.
 
-import type {EditView} from './edit_view';
+import type {EditView} from '../edit/edit_view';
 import {pathOpWithPoints, pointsChange, pointsOf, shapeChange, shownShape} from './path_changes';
 import type {PathShape, Place} from './path_changes';
 import {CURVE_STEPS, PointDrag} from './point_drag';

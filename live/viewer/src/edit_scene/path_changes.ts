@@ -3,8 +3,8 @@
 
 // Changes of the recipe by the tool for the path.
 
-import type {Change} from './edit_document';
-import {insertIndex} from './edit_view';
+import type {Change} from '../edit/edit_document';
+import {insertIndex} from '../edit/edit_view';
 import {opToChange, rounded} from './op_to_change';
 import type {OpKeys, OpValue, OpWords} from '../protocol/edit_protocol';
 

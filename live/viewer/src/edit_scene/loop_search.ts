@@ -3,8 +3,8 @@
 
 // Search in a map of loops, and the change of the recipe that makes a loop.
 
-import type {Change} from './edit_document';
-import {insertIndex} from './edit_view';
+import type {Change} from '../edit/edit_document';
+import {insertIndex} from '../edit/edit_view';
 import {acts, lastActing, withoutInstant} from './op_to_change';
 import type {LoopCandidateWords, LoopMapWords, OpWords} from '../protocol/edit_protocol';
 

@@ -5,7 +5,7 @@
 // contacts and constraints, annotations. Knows no elements of the page.
 
 import {moveContactEdge} from './contact_patches';
-import type {Change} from './edit_document';
+import type {Change} from '../edit/edit_document';
 import {opHandles} from './op_handles';
 import type {Shown, ShownView} from './op_times';
 import {nextOp, rounded, shownBy, shownFrame} from './op_times';

@@ -3,7 +3,7 @@
 
 // Parts that changes of the recipe by the tools in the scene have in common.
 
-import {insertIndex} from './edit_view';
+import {insertIndex} from '../edit/edit_view';
 import type {OpKeys, OpWords} from '../protocol/edit_protocol';
 import type {Vector} from '../protocol/protocol';
 

@@ -3,8 +3,8 @@
 
 // Changes of the recipe by handles of the body: keys of a pose and constraints.
 
-import type {Change} from './edit_document';
-import {insertIndex} from './edit_view';
+import type {Change} from '../edit/edit_document';
+import {insertIndex} from '../edit/edit_view';
 import {opToChange, rounded, roundedVector} from './op_to_change';
 import type {EditConstraintWords, OpKeys, OpValue, OpWords} from '../protocol/edit_protocol';
 import type {Vector} from '../protocol/protocol';

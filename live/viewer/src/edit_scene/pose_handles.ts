@@ -4,8 +4,8 @@
 // Handles of the hands, the feet, the hips and the constraints of the edited body. A drag
 // makes a key of the pose, or a constraint, or moves one.
 
-import type {Change} from './edit_document';
-import type {EditView} from './edit_view';
+import type {Change} from '../edit/edit_document';
+import type {EditView} from '../edit/edit_view';
 import {constraintChange, isActiveAt, newConstraint, poseChange} from './pose_changes';
 import type {Instant} from './pose_changes';
 import type {EditConstraintWords} from '../protocol/edit_protocol';

@@ -9,7 +9,7 @@ import type {
   Grip, TimelineExtension, TimelineHost, TimelineLayout, TimelinePlace,
 } from '../timeline/timeline_extension';
 import {AXIS_PX} from '../timeline/timeline_paint';
-import type {EditView} from './edit_view';
+import type {EditView} from '../edit/edit_view';
 import {SpanMenu} from './span_menu';
 import type {Handle, HandlePlace} from './timeline_handles';
 import {handlesIn, handleWords} from './timeline_handles';

@@ -7,34 +7,41 @@
 import {el} from '../base/elements';
 import {Theme} from '../base/theme';
 import {giveFocusBack, Help, listenToKeys} from '../panels/help';
-import {Panels} from '../panels/panels';
+import {Panels, Section} from '../panels/panels';
 import {viewKeys} from '../panels/view_keys';
 import {ViewPanel} from '../panels/view_panel';
 import type {Connection, Listener} from '../protocol/connection';
 import {EDIT_TYPES} from '../protocol/edit_protocol';
 import type {
-  EditErrorWords, EditWords, OpStep, OutputWords, PreviewParts, PreviewWords, ProgressWords,
+  EditErrorWords, EditWords, OutputWords, PreviewWords, ProgressWords,
   RenderedParts, RenderedWords, RevisionWords,
 } from '../protocol/edit_protocol';
-import type {SceneWords, ServerWords, SkeletonWords} from '../protocol/protocol';
+import type {DragPhase, SceneWords, ServerWords, SkeletonWords, Vector} from '../protocol/protocol';
 import {AvatarView} from '../scene/avatar_view';
 import {drawingOfBrowser} from '../scene/renderer';
 import {Stage} from '../scene/stage';
 import type {StageListener} from '../scene/stage';
 import {Timeline} from '../timeline/timeline';
 import {Transport} from '../timeline/transport';
-import {EditBar} from './edit_bar';
-import {EditDocument} from './edit_document';
-import type {Change, DocumentListener} from './edit_document';
-import {EditReel} from './edit_reel';
-import type {MotionPart} from './edit_reel';
-import {editTimeline} from './edit_rows';
-import {untilAfter} from './edit_view';
-import type {EditView} from './edit_view';
-import {ResultPanel} from './result_panel';
+import {EditBar} from '../edit/edit_bar';
+import {EditDocument} from '../edit/edit_document';
+import type {Change, DocumentListener} from '../edit/edit_document';
+import {EDIT_KEYS, listenToUndo} from '../edit/edit_keys';
+import {EditReel} from '../edit/edit_reel';
+import type {MotionPart} from '../edit/edit_reel';
+import {editTimeline} from '../edit/edit_rows';
+import {previewParts, untilAfter} from '../edit/edit_view';
+import type {EditView} from '../edit/edit_view';
+import {OpsPanel} from '../edit/ops_panel';
+import {ResultPanel} from '../edit/result_panel';
+import {Ghost} from '../edit_scene/ghost';
+import {LoopsPanel} from '../edit_scene/loops_panel';
+import {PathTool} from '../edit_scene/path_tool';
+import {PoseHandles} from '../edit_scene/pose_handles';
+import {TimelineTools} from '../edit_time/timeline_tools';
 
-/** Frames before and after the shown one that a preview contains. */
-const PREVIEW_FRAMES = 60;
+/** Index of the source in a scene. */
+const SOURCE = 0;
 
 /** A change that is shown and not made. */
 interface Preview {change: Change; until: number | null | undefined}
@@ -52,9 +59,15 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
   private readonly timeline: Timeline;
   private readonly transport: Transport;
   private readonly bar: EditBar;
-  private readonly help = new Help();
+  private readonly help = new Help(EDIT_KEYS);
   private readonly panels: Panels;
+  private readonly ops: OpsPanel;
   private readonly result: ResultPanel;
+  private readonly tools: TimelineTools;
+  private readonly handles: PoseHandles;
+  private readonly path: PathTool;
+  private readonly ghost: Ghost;
+  private readonly loops: LoopsPanel;
   private scene: SceneWords | null = null;
   private skeletons: readonly SkeletonWords[] = [];
   /** What `output` is from. */
@@ -62,7 +75,8 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
   private shownPreview: Preview | null = null;
   /** A gesture is in progress, so that the motion under it stays. */
   private isHeld = false;
-  private loading = new AbortController();
+  /** What happens when the motion that lookAt() requested is shown. */
+  private whenShown: (() => void) | null = null;
   private stale = true;
   private last_ms = 0;
 
@@ -71,29 +85,47 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     const drawing = drawingOfBrowser();
     if (drawing === 'lines') throw new Error('WebGL 2 is missing');
     this.document = new EditDocument((words) => connection.send(words), this);
-    this.stage = new Stage(this.theme, this, {drawing, label:
+    this.stage = new Stage(this.theme, this, {drawing, ghost: SOURCE, label:
       'Three-dimensional scene. Drag to rotate, press space to play, question mark for all keys.',
     load_skin: (words, signal) => AvatarView.load(words, signal, drawing === 'software')});
     byId('stage').append(this.stage.element);
-    this.timeline = new Timeline(this.theme, (frame) => {
-      this.reel.playback.playing = false;
-      this.seek(frame);
-    });
+    const seek = (frame: number): void => this.stopAt(frame);
+    this.ops = new OpsPanel(this, {lookAt: (until) => this.lookAt(until),
+      selected: () => this.onSelected()});
+    this.tools = new TimelineTools(this, this.ops, (text) => this.bar.notify(text));
+    this.timeline = new Timeline(this.theme, seek, {tools: this.tools});
     this.transport = new Transport(this.reel.playback, this.timeline, () => this.renew());
     this.transport.setMode(false);
+    this.transport.element.append(this.tools.brushButton);
     byId('time').append(this.transport.element, el('div', {class: 'scroll'},
       this.timeline.element));
-    this.panels = new Panels(byId('panels'), () => {});
+    this.handles = new PoseHandles(this, this.stage, seek);
+    this.path = new PathTool(this, this.stage, this.theme, (on) => this.handles.setHidden(on));
+    this.ghost = new Ghost(this.stage, () => this.renew());
+    this.loops = new LoopsPanel(this, this.theme, {
+      seek: (frame, until) => this.whenAt(until, () => this.stopAt(frame)),
+      playCycle: (first, last, until) => this.whenAt(until, () => this.playCycle(first, last))});
     this.result = new ResultPanel({choose: (output) => this.choose(output),
       exportResults: () => this.document.exportResults()});
-    const view = new ViewPanel(this.stage, this.theme, () => this.renew());
-    this.panels.add(this.result.section, view.section);
+    this.panels = new Panels(byId('panels'), () => {});
+    this.panels.add(this.ops.section, this.result.section, ...this.sceneSections());
     this.bar = new EditBar(byId('bar'), this.stage.element, this.theme, {
       undo: () => void this.document.undo(), redo: () => void this.document.redo(),
       showResult: () => this.lookAt(null),
     }, [this.help.button, this.panels.button]);
     this.listenToKeys();
     giveFocusBack();
+  }
+
+  /** Sections of the tools in the scene. */
+  private sceneSections(): Section[] {
+    const body = new Section('body', 'Body: drag a hand, a foot, the hips', true);
+    body.body.append(this.handles.element);
+    const path = new Section('path', 'Path', false);
+    path.body.append(this.path.element);
+    const view = new ViewPanel(this.stage, this.theme, () => this.renew());
+    view.section.body.append(this.ghost.element);
+    return [body, path, this.loops.section, view.section];
   }
 
   // --- From marey ---
@@ -122,12 +154,15 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
   onRevision(revision: RevisionWords): void {
     this.bar.setRevision(revision);
     this.result.setRevision(revision);
+    this.ops.setRevision(revision);
     this.bar.setBehind(this.document.isBehind);
+    this.updateTools();
     if (this.until !== null) this.lookAt(Math.min(this.until, revision.ops.length));
   }
 
   onProgress(progress: ProgressWords): void {
     this.bar.setProgress(progress);
+    this.ops.setProgress(progress);
   }
 
   onRendered(rendered: RenderedWords): void {
@@ -156,6 +191,7 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     this.reel.setSkeletons(skeletons);
     this.stage.setScene({skeletons: [...skeletons], cameras: [], points: null,
       floor: this.scene?.floor ?? {height_m: 0}, constraints: []});
+    this.handles.setSkeletons(skeletons);
   }
 
   private skeletonsOf(parts: RenderedParts): readonly SkeletonWords[] | null {
@@ -179,11 +215,16 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     this.output = output;
     this.shownPreview = null;
     this.reel.setWhole(frames, output);
-    this.timeline.load(editTimeline(output, null));
+    this.timeline.load(editTimeline(output, this.ops.selected));
     this.transport.setMode(false);
-    this.result.setRendered(parts, this.outputIndex);
-    this.bar.setLook(this.until);
+    this.ops.setRendered(parts);
+    if (this.until === null) this.result.setRendered(parts, this.outputIndex);
+    this.path.setMotion(frames.block, skeletons, output.rate_hz);
+    this.updateTools();
     this.renew();
+    const then = this.whenShown;
+    this.whenShown = null;
+    then?.();
   }
 
   private async takePreview(parts: PreviewWords): Promise<void> {
@@ -194,20 +235,23 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     const frames = await this.fetch(output);
     if (!frames || !this.shownPreview) return;
     this.reel.setPreview(frames);
+    this.ops.setRendered(parts);
+    if (frames.block.frames === output.frames) {
+      this.path.setMotion(frames.block, skeletons, output.rate_hz);
+      if (output.frames === this.output?.frames) {
+        this.timeline.load(editTimeline(output, this.ops.selected));
+      }
+    }
     this.renew();
   }
 
-  /** Returns the frames of an output; null if newer ones are awaited. */
+  /** Returns the frames of an output; null if newer ones are awaited, or it was removed. */
   private async fetch(output: OutputWords): Promise<MotionPart | null> {
-    this.loading.abort();
-    this.loading = new AbortController();
-    const {signal} = this.loading;
     try {
-      const frames = await this.reel.fetch(output, signal);
-      return signal.aborted ? null : frames;
+      return await this.reel.fetch(output);
     } catch (problem) {
       // An old block is removed when a newer result is ready.
-      if (!signal.aborted && !this.document.isBehind) {
+      if (!this.document.isBehind) {
         this.trouble(`The motion cannot be shown: ${String(problem)}`);
       }
       return null;
@@ -224,7 +268,7 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     this.isHeld = true;
     this.reel.playback.pause();
     this.shownPreview = {change, until};
-    this.document.preview(change, (steps) => this.previewParts(steps, until));
+    this.document.preview(change, (steps) => previewParts(steps, this, until));
   }
 
   async commit(change: Change): Promise<boolean> {
@@ -257,22 +301,38 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     this.renew();
   }
 
-  private previewParts(steps: readonly OpStep[], until?: number | null): PreviewParts {
-    const {frame} = this.reel.playback;
-    const end = until !== undefined ? until
-      : this.until === null ? null : untilAfter(steps, this.until);
-    return {until: end, output: this.outputIndex,
-      span: [Math.max(frame - PREVIEW_FRAMES, 0), frame + PREVIEW_FRAMES]};
-  }
-
   /** Shows the motion after this number of operations; null: the result. */
   lookAt(until: number | null): void {
     this.until = until;
     this.shownPreview = null;
+    this.whenShown = null;
     this.bar.setLook(until);
+    this.ops.setLook(until);
     const {rendered} = this.document;
     if (until !== null) this.document.show({until});
     else if (rendered) void this.take(rendered);
+  }
+
+  /** Calls `then` when the motion after `until` operations is shown. */
+  private whenAt(until: number | null, then: () => void): void {
+    if (until === this.until) {
+      then();
+      return;
+    }
+    this.lookAt(until);
+    this.whenShown = then;
+  }
+
+  private updateTools(): void {
+    this.handles.update();
+    this.path.update();
+    this.loops.update();
+    this.timeline.repaint();
+  }
+
+  private onSelected(): void {
+    this.path.select(this.ops.selected);
+    if (this.output) this.timeline.load(editTimeline(this.output, this.ops.selected));
   }
 
   private choose(output: number): void {
@@ -298,6 +358,9 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     }
     this.timeline.place(playback.first, playback.last, playback.time, playback.frame);
     this.transport.show();
+    this.handles.setTime(playback.time);
+    this.path.setTime(playback.time);
+    this.loops.setTime(playback.time);
   }
 
   afterPicture(): void {
@@ -310,23 +373,29 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     this.stage.refresh();
   }
 
+  drag(id: string, p_in_world: Vector, phase: DragPhase): void {
+    this.handles.drag(id, p_in_world, phase);
+  }
+
   private seek(frame: number): void {
     this.reel.playback.seek(frame);
     this.renew();
   }
 
+  private stopAt(frame: number): void {
+    this.reel.playback.pause();
+    this.seek(frame);
+  }
+
+  private playCycle(first: number, last: number): void {
+    this.reel.playback.playCycle(first, last);
+    this.renew();
+  }
+
   private listenToKeys(): void {
     const {transport, stage, panels, help, reel: {playback}} = this;
-    listenToKeys(viewKeys({playback, transport, stage, panels, help,
-      seek: (frame) => this.seek(frame)}));
-    document.addEventListener('keydown', (event) => {
-      const isText = (event.target as HTMLElement).closest('input:not([type=checkbox]), textarea');
-      if (!(event.ctrlKey || event.metaKey) || event.altKey || isText) return;
-      const key = event.key.toLowerCase();
-      if (key !== 'z' && key !== 'y') return;
-      event.preventDefault();
-      if (key === 'y' || event.shiftKey) void this.document.redo();
-      else void this.document.undo();
-    });
+    listenToKeys({...viewKeys({playback, transport, stage, panels, help,
+      seek: (frame) => this.seek(frame)}), ...this.tools.keys, g: () => this.ghost.toggle()});
+    listenToUndo(() => void this.document.undo(), () => void this.document.redo());
   }
 }

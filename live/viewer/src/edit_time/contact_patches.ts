@@ -4,8 +4,8 @@
 // Changes of contacts by hand, as edits of a contacts operation. All times are those of the
 // shown motion. Knows no elements of the page.
 
-import type {Change} from './edit_document';
-import {insertIndex} from './edit_view';
+import type {Change} from '../edit/edit_document';
+import {insertIndex} from '../edit/edit_view';
 import type {ShownView} from './op_times';
 import {changeOf, lastOp, rounded} from './op_times';
 import type {Foot, FootPart, OpKeys, OpValue} from '../protocol/edit_protocol';

@@ -4,9 +4,9 @@
 // Gestures on the timeline as changes of the recipe. All times are those of the shown motion.
 // Knows no elements of the page.
 
-import type {Change} from './edit_document';
-import {opName} from './edit_document';
-import {insertIndex} from './edit_view';
+import type {Change} from '../edit/edit_document';
+import {opName} from '../edit/edit_document';
+import {insertIndex} from '../edit/edit_view';
 import type {Place, Shown, ShownView} from './op_times';
 import {
   annotationTime, changeOf, duration_s, isAnnotating, lastOp, nextOp, offset_s, readInstant,

@@ -3,8 +3,8 @@
 
 // The panel for loops: finds pairs of frames that repeat each other, and makes a loop of one.
 
-import {insertIndex} from './edit_view';
-import type {EditView} from './edit_view';
+import {insertIndex} from '../edit/edit_view';
+import type {EditView} from '../edit/edit_view';
 import {LoopMap} from './loop_map';
 import {
   cellOfCycle, cycleOfCell, distanceAt, loopChange, loopsUntil, motionKey,

@@ -4,8 +4,8 @@
 // The instants and spans of the selected operation that can be dragged on the timeline. Knows
 // no elements of the page.
 
-import {opName} from './edit_document';
-import {insertIndex} from './edit_view';
+import {opName} from '../edit/edit_document';
+import {insertIndex} from '../edit/edit_view';
 import type {Place, Shown, ShownView} from './op_times';
 import {offset_s, SPANNED, shownFrame} from './op_times';
 import {moveInstants} from './patches';

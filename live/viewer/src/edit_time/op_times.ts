@@ -4,10 +4,10 @@
 // Instants of operations: reading, writing, and converting them between the motion that an
 // operation receives and the shown one. Knows no elements of the page.
 
-import type {Change} from './edit_document';
-import {opName} from './edit_document';
-import type {EditView} from './edit_view';
-import {insertIndex} from './edit_view';
+import type {Change} from '../edit/edit_document';
+import {opName} from '../edit/edit_document';
+import type {EditView} from '../edit/edit_view';
+import {insertIndex} from '../edit/edit_view';
 import type {
   EditSourceWords, OpKeys, OpStep, OpValue, OpWords, OutputWords,
 } from '../protocol/edit_protocol';
