@@ -11,7 +11,7 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 import {openBrowser, openPage} from './browser.mjs';
-import {apart, end, end_all, joint, serve, until} from './marey_process.mjs';
+import {apart, drag, end, end_all, joint, serve, until} from './marey_process.mjs';
 
 const {MAREY_PROGRAM, MAREY_RESULTS} = process.env;
 /** Index of the edited body in the scene; the source is 0. */
@@ -43,7 +43,7 @@ const state = (page) => page.evaluate(() => {
 /** Waits until the result of the newest revision is shown. */
 const shown = (page) => until('the result of the newest revision', () => page.evaluate(() => {
   const {document: edit, output, reel: {playback}} = window.mareyPage;
-  return !edit.isBehind && edit.rendered.outputs.includes(output) &&
+  return !edit.isBehind && edit.rendered.outputs.includes(output) && !window.mareyPage.stale &&
     playback.last === output.frames - 1;
 }));
 /** Goes to a frame and waits until it is drawn. */
@@ -155,6 +155,152 @@ test('exported files have the bytes of the command line', async () => {
     assert.ok(readFileSync(join(by_page, name)).equals(readFileSync(join(by_command, name))),
       `${name} differs`);
   }
+  assert.deepEqual(troubles, []);
+  await end(marey);
+  await close();
+});
+
+/** Returns the place of a frame in a row of the timeline. [px] */
+const place_at = (page, kind, row, frame) => page.evaluate(([of_kind, at_row, at_frame]) => {
+  const {timeline} = window.mareyPage;
+  const {left, top} = timeline.element.getBoundingClientRect();
+  const band = of_kind === 'axis' ? {top: 0, height: 20} : timeline.bands.find((one) =>
+    one.strip?.kind === of_kind && one.row === at_row);
+  return [left + timeline.gutter + timeline.window.x(at_frame, timeline.plot),
+    top + band.top + band.height / 2];
+}, [kind, row, frame]);
+
+/** Presses at one place, moves to another and releases. */
+async function drag_from_to(page, [x, y], [to_x, to_y]) {
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(to_x, to_y, {steps: 8});
+  await page.mouse.up();
+}
+
+/** Opens a page of an empty recipe for the walk. */
+async function open_empty(name) {
+  const file = join(folder, `${name}.npz`);
+  cpSync(join(folder, 'walk.npz'), file);
+  const {address, marey} = await serve('edit', file, '--page');
+  const opened = await openPage(browser, address, {viewport: {width: 1200, height: 900}});
+  await shown(opened.page);
+  if (!await opened.page.evaluate(() => window.mareyPage.timeline.element.offsetHeight > 200)) {
+    await opened.page.keyboard.press('d');
+  }
+  return {...opened, marey, recipe: () => readFileSync(join(folder, `${name}.edit.toml`), 'utf8')};
+}
+/** Waits until the recipe has this many operations and their result is shown. */
+async function has_ops(page, count) {
+  await until(`${count} operations`, async () => (await state(page)).ops.length === count);
+  await shown(page);
+}
+
+test('trim handles, contact edges and brushed spans of the timeline write operations', async () => {
+  const {page, troubles, close, marey, recipe: text} = await open_empty('time');
+  const {last, rate_hz} = await state(page);
+
+  await drag_from_to(page, await place_at(page, 'axis', 0, 0), await place_at(page, 'axis', 0, 12));
+  await has_ops(page, 1);
+  const {ops: [cut], frames} = await state(page);
+  assert.equal(cut.do, 'cut@1');
+  assert.ok(Math.abs(frames - (last - 11)) <= 2, `${frames} of ${last + 1}`);
+  await drag_from_to(page, await place_at(page, 'axis', 0, frames - 1),
+    await place_at(page, 'axis', 0, frames - 11));
+  await until('a shorter motion', async () => (await state(page)).frames < frames - 7);
+  assert.equal((await state(page)).ops.length, 1, 'the same cut is changed');
+  await shown(page);
+
+  const span = () => page.evaluate(() => window.mareyPage.output.contacts[2].spans.find(
+    ([first, end]) => first > 3 && end < window.mareyPage.output.frames - 4));
+  const [first] = await span();
+  await drag_from_to(page, await place_at(page, 'contacts', 2, first - 0.5),
+    await place_at(page, 'contacts', 2, first - 0.5 + 3));
+  await has_ops(page, 2);
+  const {ops: [, contacts]} = await state(page);
+  assert.equal(contacts.do, 'contacts@1');
+  assert.equal(contacts.edits.length, 1);
+  assert.equal(contacts.edits[0].do, 'move_start');
+  assert.ok(Math.abs((contacts.edits[0].to_s - contacts.edits[0].from_s) * rate_hz - 3) <= 1);
+  assert.ok((await span())[0] > first, 'the contact starts later');
+
+  await page.keyboard.down('Shift');
+  await drag_from_to(page, await place_at(page, 'axis', 0, 5), await place_at(page, 'axis', 0, 25));
+  await page.keyboard.up('Shift');
+  await page.locator('.span-menu').getByText('Filter').click();
+  await has_ops(page, 3);
+  assert.equal((await state(page)).ops[2].do, 'filter@1');
+  assert.match(text(), /do = "filter@1"/);
+  assert.deepEqual(troubles, []);
+  await end(marey);
+  await close();
+});
+
+test('the list of operations adds, changes, switches off, moves and removes', async () => {
+  const {page, troubles, close, marey} = await open_empty('list');
+  const {frames} = await state(page);
+  const add = async (name) => {
+    await page.getByRole('button', {name: 'Add operation'}).click();
+    await page.locator(`[data-op=${name}]`).click();
+  };
+  await add('retime');
+  await has_ops(page, 1);
+  const retime = (await state(page)).ops[0];
+  assert.equal(retime.do, 'retime@1');
+  const field = page.getByLabel(/duration/i).first();
+  await field.fill('4');
+  await field.press('Enter');
+  await until('4 s', async () => (await state(page)).ops[0].duration_s === 4);
+  await shown(page);
+  assert.ok((await state(page)).frames > frames);
+  await page.locator('.op-on').first().uncheck();
+  await until('the motion as before', async () => (await state(page)).frames === frames);
+  await page.locator('.op-on').first().check();
+  await add('mirror');
+  await has_ops(page, 2);
+  await page.locator('.op-open').nth(1).focus();
+  await page.keyboard.press('Alt+ArrowUp');
+  await until('the other order', async () => (await state(page)).ops[0].do === 'mirror@1');
+  await page.locator('.op-open').first().focus();
+  await page.keyboard.press('Delete');
+  await until('one operation', async () => (await state(page)).ops.length === 1);
+  assert.equal((await state(page)).ops[0].do, 'retime@1');
+  assert.deepEqual(troubles, []);
+  await end(marey);
+  await close();
+});
+
+test('a dragged hand makes a key, a dragged point a path, a click in the map a loop', async () => {
+  const {page, troubles, close, marey} = await open_empty('space');
+  await seek(page, 30);
+  const hand = await joint(page, RESULT, 'leftHand');
+  await drag(page, 'Left hand', 20, -60);
+  await has_ops(page, 1);
+  const [key] = (await state(page)).ops;
+  assert.equal(key.do, 'pose@1');
+  assert.equal(key.bone, 'leftHand');
+  await seek(page, 30);
+  const moved = await joint(page, RESULT, 'leftHand');
+  assert.ok(apart(moved, hand.map((x, k) => x + key.moved_m[k])) < 0.02, 'the hand is there');
+  await drag(page, 'Left hand', -10, 20);
+  await until('the same key to change', async () =>
+    JSON.stringify((await state(page)).ops[0].moved_m) !== JSON.stringify(key.moved_m));
+  assert.equal((await state(page)).ops.length, 1);
+  await shown(page);
+
+  await page.locator('.section-path summary').first().click();
+  await page.getByRole('button', {name: 'Turn 90° left'}).click();
+  await has_ops(page, 2);
+  assert.equal((await state(page)).ops[1].turn_deg, 90);
+  await page.locator('.undo').click();
+  await has_ops(page, 1);
+
+  await page.locator('.section-loops > summary').click();
+  await page.getByRole('button', {name: 'Find loops'}).click();
+  await page.locator('.section-loops .loops li').first().click();
+  await page.getByRole('button', {name: 'Loop here'}).click();
+  await has_ops(page, 2);
+  assert.equal((await state(page)).ops[1].do, 'cyclify@1');
   assert.deepEqual(troubles, []);
   await end(marey);
   await close();

@@ -119,7 +119,7 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
 
   /** Sections of the tools in the scene. */
   private sceneSections(): Section[] {
-    const body = new Section('body', 'Body: drag a hand, a foot, the hips', true);
+    const body = new Section('joints', 'Drag the body', true);
     body.body.append(this.handles.element);
     const path = new Section('path', 'Path', false);
     path.body.append(this.path.element);
@@ -367,7 +367,6 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     ++this.drawnCount;
   }
 
-  /** Called when the shown instant has changed. */
   private renew(): void {
     this.stale = true;
     this.stage.refresh();
