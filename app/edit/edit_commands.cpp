@@ -257,7 +257,7 @@ Exit run_edit_diff(const EditArguments& args, Console& console) {
 
 namespace {
 
-/// The options of the page need --page, and those that write or measure exclude it.
+/// Options of the page need --page. Options that write or measure exclude it.
 void add_edit_page_options(CLI::App& command, EditArguments& args) {
   CLI::Option* page = command.add_flag(
       "--page",

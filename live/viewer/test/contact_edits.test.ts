@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The edits that gestures on contacts write must give the contacts that the user sees: checked
-// with a model of what marey does with them, written from docs/formats/edit_recipe.md.
+// Gestures on contacts write edits. marey's result must be the contacts that the user sees. It is
+// compared with an independent model of marey's edits, written from docs/formats/edit_recipe.md.
 
 import assert from 'node:assert/strict';
 import test from 'node:test';

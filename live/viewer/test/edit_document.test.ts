@@ -60,7 +60,7 @@ test('a second change waits for the first, and is computed from its result', asy
   assert.deepEqual(await Promise.all([first, second]), [true, true]);
 });
 
-test('a stale or refused change is told, and later ones go on', async () => {
+test('a stale or refused change is reported, and later ones go on', async () => {
   const {edit, sent, refused} = make();
   const stale = edit.change(() => [{remove: 0}]);
   const bad = edit.change(() => [{remove: 7}]);

@@ -105,7 +105,7 @@ test('a killed program loses no revision: undo works in the next run', async () 
   await close();
 });
 
-test('a change that the recipe refuses is told and changes nothing', async () => {
+test('a change that the recipe refuses is reported and changes nothing', async () => {
   const {address, marey} = await serve('edit', recipe, '--page');
   const {page, close} = await openPage(browser, address);
   await shown(page);

@@ -27,7 +27,7 @@ export class EditReel {
     return this.instant.shown;
   }
 
-  /** Sets the bodies. All frames are forgotten. */
+  /** Sets the bodies. Removes all frames. */
   setSkeletons(skeletons: readonly SkeletonWords[]): void {
     this.skeletons = skeletons;
     this.instant = new Instant(skeletons);

@@ -35,8 +35,8 @@ export function insertIndex(ops: readonly OpWords[], until: number | null): numb
   return end > 0 && ops[end - 1]?.do.startsWith('retarget@') ? end - 1 : end;
 }
 
-/** Returns the number of operations after a change that includes the operations before index
- *  `until`, and those that were inserted at it. */
+/** Returns the number of operations up to index `until` after a change. Operations inserted at
+ *  `until` are included. */
 export function untilAfter(steps: readonly OpStep[], until: number): number {
   let end = until;
   for (const step of steps) {

@@ -70,12 +70,12 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
   private readonly loops: LoopsPanel;
   private scene: SceneWords | null = null;
   private skeletons: readonly SkeletonWords[] = [];
-  /** What `output` is from. */
+  /** Contains `output`. */
   private parts: RenderedParts | null = null;
   private shownPreview: Preview | null = null;
   /** A gesture is in progress, so that the motion under it stays. */
   private isHeld = false;
-  /** What happens when the motion that lookAt() requested is shown. */
+  /** Called when the motion that lookAt() requested is shown. */
   private whenShown: (() => void) | null = null;
   private stale = true;
   private last_ms = 0;
@@ -204,7 +204,7 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
   /** Shows a motion with its figures. */
   private async take(parts: RenderedParts): Promise<void> {
     const skeletons = this.skeletonsOf(parts);
-    if (!skeletons) return; // Of a scene that is replaced; the next result follows.
+    if (!skeletons) return; // They belong to an older scene; the next result follows.
     this.outputIndex = Math.min(this.outputIndex, parts.outputs.length - 1);
     const output = parts.outputs[this.outputIndex];
     if (!output) return;

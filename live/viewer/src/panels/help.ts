@@ -5,7 +5,7 @@
 
 import {el} from '../base/elements';
 
-/** Keys or gestures, and what they do. */
+/** Keys or gestures, and their effect. */
 export type KeyHelp = readonly [readonly string[], string];
 
 const KEYS: KeyHelp[] = [
