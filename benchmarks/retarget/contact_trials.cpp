@@ -249,6 +249,16 @@ std::vector<ContactSource> contact_sources() {
       walk_of("MAC Walk1",
               "c3d_org_samples/sample_00/Motion Analysis Corporation/Walk1.c3d"),
       walk_of("Eb015pr", "c3d_org_samples/sample_01/Eb015pr.c3d"),
+      walk_of("gait-pig-nz", "c3d_org_samples/sample_03/gait-pig-nz.c3d"),
+      walk_of("Codamotion",
+              "c3d_org_samples/sample_00/Codamotion/codamotion_gaitwands_19970212.c3d"),
+      {"Sample_Jump2",
+       "jump",
+       false,
+       "c3d_org_samples/sample_00/Motion Analysis Corporation/Sample_Jump2.c3d",
+       {},
+       "",
+       {}},
   };
 }
 
