@@ -24,6 +24,19 @@ struct PlateEdge {
   bool is_strike = false;
 };
 
+/// Time in which a plate is loaded, on the clock of the motion.
+struct LoadInterval {
+  double first_s = 0.0;
+  double last_s = 0.0;
+};
+
+/// Vertical force on a plate, or on a foot, without the plate's offset.
+struct PlateLoad {
+  std::vector<double> time_s;  ///< On the clock of the motion.
+  std::vector<double> force_N;
+  std::vector<LoadInterval> intervals;  ///< Above kLoaded_N.
+};
+
 /// A recording with markers and force plates. The motion is fitted to the markers.
 struct ContactTrial {
   std::string name;
@@ -32,6 +45,7 @@ struct ContactTrial {
   Motion motion;
   retarget::BodyMap map;
   std::vector<PlateEdge> edges;  ///< In the order of time.
+  std::vector<PlateLoad> loads;
 };
 
 /// Location of a recording below the folder `mocap` of the shared data.
