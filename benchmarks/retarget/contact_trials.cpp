@@ -187,6 +187,22 @@ void add_plate_edges(const recordings::ForcePlates& plates,
   trial.loads.push_back(std::move(load));
 }
 
+void add_heel_markers(const MarkerTracks& tracks, ContactTrial& trial) {
+  const auto names = reconstruct::name_markers(tracks.labels);
+  for (std::size_t i = 0; i < tracks.markers(); ++i) {
+    if (names.landmarks[i] == nullptr) continue;
+    for (const std::size_t side : {0U, 1U}) {
+      auto& heel = trial.heel_markers[side];
+      if (names.landmarks[i]->name != (side == 0 ? "left_heel" : "right_heel")) continue;
+      if (!heel.empty()) continue;
+      for (std::size_t t = 0; t < tracks.frames(); ++t) {
+        const auto& sample = tracks.at(t, i);
+        heel.push_back(sample ? std::optional(sample->p_in_world) : std::nullopt);
+      }
+    }
+  }
+}
+
 // A walk with the plates of its own C3D.
 ContactSource walk_of(const char* name, const char* file, bool is_tuned = false) {
   return {name, "walk", is_tuned, file, {}, "", {}};
@@ -271,11 +287,12 @@ Result<ContactTrial> read_contact_trial(const std::filesystem::path& mocap,
   if (!fit) return fit.error();
   auto solved = reconstruct::solve_markers(fit->body, trials[0]);
   if (!solved) return bad_input(source.markers, "no frame shows six markers", "");
-  ContactTrial trial{source.name, source.kind, source.is_tuned, {}, {}, {}, {}};
+  ContactTrial trial{source.name, source.kind, source.is_tuned, {}, {}, {}, {}, {}};
   trial.motion = std::move(solved->estimate.motion);
   auto map = retarget::map_body(trial.motion.skeleton);
   if (!map) return map.error();
   trial.map = *std::move(map);
+  add_heel_markers(trials[0], trial);
   const double start_s = trials[0].start_s;
   if (!source.forces.empty()) {
     const Status read = read_table_edges(mocap / source.forces, source, start_s, trial);

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "core/base/result.h"
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
@@ -46,6 +48,9 @@ struct ContactTrial {
   retarget::BodyMap map;
   std::vector<PlateEdge> edges;  ///< In the order of time.
   std::vector<PlateLoad> loads;
+  /// Marker on the heel of the left and of the right foot per frame, in the world; empty
+  /// if there is none.
+  std::array<std::vector<std::optional<glm::dvec3>>, 2> heel_markers;
 };
 
 /// Location of a recording below the folder `mocap` of the shared data.
