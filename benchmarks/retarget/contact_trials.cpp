@@ -174,9 +174,8 @@ void add_plate_edges(const recordings::ForcePlates& plates,
       const double inside_s = is_strike ? at_s + kInside_s : at_s - kInside_s;
       const auto side = foot_on(trial, plates, plate, start_s, inside_s);
       if (!side) continue;
-      const double flat_s =
-          is_strike ? std::min(at_s + 0.12, 0.5 * (at_s + one.last_s))
-                    : std::max(at_s - 0.25, 0.5 * (at_s + one.first_s));
+      const double flat_s = is_strike ? std::min(at_s + 0.12, 0.5 * (at_s + one.last_s))
+                                      : std::max(at_s - 0.25, 0.5 * (at_s + one.first_s));
       const auto print = print_of(trial, *side, flat_s);
       const bool on_plate = std::all_of(print.begin(), print.end(), [&](const auto& p) {
         return is_inside(plate.corners_in_world, p);

@@ -13,14 +13,15 @@
 namespace marey::retarget {
 namespace {
 
-constexpr double kBefore_s = 0.07;
-constexpr double kAfter_s = 0.06;
+constexpr double kBefore_s = 0.08;
+constexpr double kAfter_s = 0.07;
 constexpr double kMinSpan_frames = 3.5;
-constexpr double kSearch_s = 0.04;
+constexpr double kSearch_s = 0.05;
+constexpr double kRefine_s = 0.012;
 constexpr double kStep_s = 0.002;
 constexpr int kMinFrames = 3;  // On either side.
 // A smaller step may be noise.
-constexpr double kMinStandardErrors = 6.0;
+constexpr double kMinStandardErrors = 4.0;
 
 // Weighted fit of two parabolas with a common value and slope.
 struct StepFit {
@@ -41,14 +42,16 @@ void subtract(double factor, const Column& a, Column& from) {
   for (std::size_t i = 0; i < a.size(); ++i) from[i] -= factor * a[i];
 }
 
+// Fit with a step at `frame`, weighted around `middle`.
 std::optional<StepFit> fit_step(std::span<const double> height_m,
                                 double hz,
+                                double middle,
                                 double frame) {
   const double before_s = std::max(kBefore_s, kMinSpan_frames / hz);
   const double after_s = std::max(kAfter_s, kMinSpan_frames / hz);
-  const int first = std::max(0, static_cast<int>(std::ceil(frame - before_s * hz)));
+  const int first = std::max(0, static_cast<int>(std::ceil(middle - before_s * hz)));
   const int last = std::min(static_cast<int>(height_m.size()) - 1,
-                            static_cast<int>(std::floor(frame + after_s * hz)));
+                            static_cast<int>(std::floor(middle + after_s * hz)));
   if (frame - first < kMinFrames - 1 || last - frame < kMinFrames - 1) {
     return std::nullopt;
   }
@@ -57,8 +60,9 @@ std::optional<StepFit> fit_step(std::span<const double> height_m,
   Column height;
   for (int t = first; t <= last; ++t) {
     const double s = (t - frame) / hz;
-    const double share = s < 0.0 ? s / before_s : s / after_s;
-    const double w = std::sqrt(std::max(0.0, 1.0 - share * share));
+    const double from_middle_s = (t - middle) / hz;
+    const double share = from_middle_s / (from_middle_s < 0.0 ? before_s : after_s);
+    const double w = std::max(0.0, 1.0 - share * share);
     parabola[0].push_back(w);
     parabola[1].push_back(w * s);
     parabola[2].push_back(w * s * s);
@@ -87,36 +91,60 @@ std::optional<StepFit> fit_step(std::span<const double> height_m,
   return fit;
 }
 
+// Candidate of a search, in steps from its start, and its fit.
+struct Peak {
+  double step = 0.0;
+  StepFit fit;
+};
+
+// Highest local maximum of the gain, between candidates.
+std::optional<Peak> highest_peak(const std::vector<std::optional<StepFit>>& fits) {
+  std::optional<Peak> best;
+  for (std::size_t i = 1; i + 1 < fits.size(); ++i) {
+    if (!fits[i - 1] || !fits[i] || !fits[i + 1] || fits[i]->gain_m2 <= 0.0) continue;
+    const double left = fits[i - 1]->gain_m2;
+    const double gain_m2 = fits[i]->gain_m2;
+    const double right = fits[i + 1]->gain_m2;
+    if (gain_m2 < left || gain_m2 < right) continue;
+    if (best && gain_m2 <= best->fit.gain_m2) continue;
+    const double bend = left - 2.0 * gain_m2 + right;
+    const double offset = bend < 0.0 ? 0.5 * (left - right) / bend : 0.0;
+    best = Peak{static_cast<double>(i) + offset, *fits[i]};
+  }
+  return best;
+}
+
 }  // namespace
 
 std::optional<DescentArrest> find_descent_arrest(std::span<const double> height_m,
                                                  double hz,
                                                  double near_frame) {
   MAREY_ASSERT(hz > 0.0);
-  const int reach = static_cast<int>(std::lround(kSearch_s / kStep_s));
-  std::vector<std::optional<StepFit>> fits;
-  for (int i = -reach; i <= reach; ++i) {
-    fits.push_back(fit_step(height_m, hz, near_frame + i * kStep_s * hz));
+  const double step = kStep_s * hz;
+  const auto search = [&](double middle, double reach_s, bool moves) {
+    const int reach = static_cast<int>(std::lround(reach_s / kStep_s));
+    std::vector<std::optional<StepFit>> fits;
+    for (int i = -reach; i <= reach; ++i) {
+      const double frame = middle + i * step;
+      fits.push_back(fit_step(height_m, hz, moves ? frame : middle, frame));
+    }
+    auto peak = highest_peak(fits);
+    if (peak) peak->step -= reach;
+    return peak;
+  };
+  auto peak = search(near_frame, kSearch_s, true);
+  if (!peak) return std::nullopt;
+  double frame = near_frame + peak->step * step;
+  // The spans moved with the step, which shifts the peak. They stay from here on.
+  if (const auto refined = search(frame, kRefine_s, false)) {
+    frame += refined->step * step;
+    peak = refined;
   }
-  std::optional<std::size_t> best;
-  for (std::size_t i = 1; i + 1 < fits.size(); ++i) {
-    if (!fits[i - 1] || !fits[i] || !fits[i + 1] || fits[i]->gain_m2 <= 0.0) continue;
-    const double gain_m2 = fits[i]->gain_m2;
-    if (gain_m2 < fits[i - 1]->gain_m2 || gain_m2 < fits[i + 1]->gain_m2) continue;
-    if (!best || gain_m2 > fits[*best]->gain_m2) best = i;
-  }
-  if (!best || fits[*best]->change_m_per_s2 <
-                   kMinStandardErrors * fits[*best]->standard_error_m_per_s2) {
+  const StepFit& fit = peak->fit;
+  if (fit.change_m_per_s2 < kMinStandardErrors * fit.standard_error_m_per_s2) {
     return std::nullopt;
   }
-  // The peak between candidates, of the parabola through three of them.
-  const double left = fits[*best - 1]->gain_m2;
-  const double middle = fits[*best]->gain_m2;
-  const double right = fits[*best + 1]->gain_m2;
-  const double bend = left - 2.0 * middle + right;
-  const double offset = bend < 0.0 ? 0.5 * (left - right) / bend : 0.0;
-  const double step = static_cast<double>(*best) - reach + offset;
-  return DescentArrest{near_frame + step * kStep_s * hz, fits[*best]->change_m_per_s2};
+  return DescentArrest{frame, fit.change_m_per_s2};
 }
 
 }  // namespace marey::retarget

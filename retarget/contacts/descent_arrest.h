@@ -15,14 +15,16 @@ struct DescentArrest {
 
 /// Finds where the descent of a point is arrested: the instant near `near_frame` at which
 /// a step of its vertical acceleration explains most of its height. Two parabolas that
-/// share value and slope at the step are fitted to the 70 ms before and the 60 ms after
+/// share value and slope at the step are fitted to the 80 ms before and the 70 ms after
 /// it, with weights that fade to the ends of these spans, so that no derivative of noisy
-/// heights is taken. At low rates the spans are at least 3.5 frames.
+/// heights is taken. At low rates the spans are at least 3.5 frames. First the spans move
+/// with the step; then the step alone is refined by at most 12 ms. Exact for a point with
+/// constant accelerations before and after the step.
 ///
-/// Candidates are within 40 ms of `near_frame`. Returns nullopt if the best one is at the
-/// end of this range, less than three frames from an end of the heights, not upward, or
-/// smaller than six of its standard errors.
-/// Cost: 41 fits. `height_m` has one value per frame at `hz`.
+/// Candidates are within 50 ms of `near_frame`. Returns nullopt if the best one is at the
+/// end of this range, has fewer than three frames on either side, is not upward, or is
+/// smaller than four of its standard errors. `height_m` has one value per frame at `hz`.
+/// Cost: 64 fits, each linear in the frames of its spans.
 /// Precondition: the rate is positive.
 [[nodiscard]] std::optional<DescentArrest> find_descent_arrest(
     std::span<const double> height_m, double hz, double near_frame);
