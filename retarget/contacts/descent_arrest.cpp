@@ -69,7 +69,7 @@ std::optional<StepFit> fit_step(std::span<const double> height_m,
     step.push_back(s > 0.0 ? 0.5 * w * s * s : 0.0);
     height.push_back(w * height_m[static_cast<std::size_t>(t)]);
   }
-  // What a single parabola explains is removed from the step and from the heights.
+  // Removes from the step and from the heights the part that one parabola explains.
   for (std::size_t i = 0; i < parabola.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       subtract(dot(parabola[j], parabola[i]), parabola[j], parabola[i]);

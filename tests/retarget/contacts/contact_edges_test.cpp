@@ -188,40 +188,6 @@ TEST(ContactEdges, AgreeBetweenFrameRatesToAFractionOfAFrame) {
   }
 }
 
-// Errors of the strikes of a walk whose feet fall onto the floor. The truth is the start
-// of the arrest, less the delay that the rule assumes. [ms]
-std::vector<double> falling_walk_errors(double hz, double noise_m) {
-  constexpr double kFall_m_per_s2 = 20.0;
-  constexpr double kHalfCycle_s = 0.55;
-  const Motion walk =
-      testing::synthetic_walk(
-          static_cast<int>(kWalk_s * hz), hz, 0.0, noise_m, kFall_m_per_s2)
-          .motion;
-  const ContactEdges edges = find_contact_edges(walk, mapped(walk.skeleton));
-  std::vector<double> off_ms;
-  for (const auto& foot : edges.feet) {
-    for (const StanceEdges& stance : foot) {
-      if (!stance.strike) continue;
-      EXPECT_EQ(stance.strike->rule, EdgeRule::kArrest) << hz << " Hz";
-      const double arrested_s =
-          stance.strike->time_s + ContactEdgeOptions{}.arrest_delay_s;
-      off_ms.push_back(1e3 * std::abs(std::remainder(arrested_s, kHalfCycle_s)));
-    }
-  }
-  EXPECT_GE(off_ms.size(), 4U);
-  return off_ms;
-}
-
-TEST(ContactEdges, StrikeAtTheArrestOfAFallingFoot) {
-  for (const double hz : {50.0, 60.0, 120.0, 250.0}) {
-    EXPECT_LT(quantile(falling_walk_errors(hz, 0.0), 1.0), 5.0) << hz << " Hz";
-  }
-}
-
-TEST(ContactEdges, StrikeAtTheArrestOfAFallingFootUnderNoiseOf1mm) {
-  EXPECT_LT(quantile(falling_walk_errors(120.0, 0.001), 0.9), 8.0);
-}
-
 void expect_walk_under_noise(double noise_m, double max_median_ms, double max_p90_ms) {
   const Motion clean = walk_at(120.0);
   const BodyMap map = mapped(clean.skeleton);
