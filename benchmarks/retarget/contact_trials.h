@@ -43,7 +43,7 @@ struct PlateLoad {
 struct ContactTrial {
   std::string name;
   std::string kind;       ///< "run", "walk" or "jump".
-  bool is_tuned = false;  ///< The rules were chosen on this recording.
+  bool is_tuned = false;  ///< The rules were chosen with this recording in view.
   Motion motion;
   retarget::BodyMap map;
   std::vector<PlateEdge> edges;  ///< In the order of time.

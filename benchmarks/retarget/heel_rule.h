@@ -20,8 +20,8 @@ namespace marey {
                                                                 int side);
 
 /// First instant, from 120 ms before a strike, at which a height comes within 10 mm of
-/// its lowest of the next 0.2 s. The plates' strike limits the search, so this is what
-/// the rule can do at best. nullopt if there is none within 150 ms after the strike.
+/// its lowest of the next 0.2 s. The plates' strike limits the search, so errors are
+/// those of the rule at best. nullopt if there is none within 150 ms after the strike.
 [[nodiscard]] std::optional<double> strike_by_heel(
     const std::vector<std::optional<double>>& height_m, double hz, double strike_s);
 

@@ -3,7 +3,7 @@
 //
 // Errors of contact edges against force plates. Usage:
 //   measure_contact_edges [MOCAP_FOLDER] [--all]
-// --all prints every edge.
+// --all prints every edge: errors of detect_contacts() and of find_contact_edges().
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -121,7 +121,8 @@ std::optional<PlateClock> plate_clock(const ContactTrial& trial) {
     const double left = unexplained(model, force);
     if (left < best.unexplained_share) best = {1e-3 * delay_ms, left};
   }
-  if (best.unexplained_share > kMaxUnexplained) return std::nullopt;
+  const bool is_inside = std::abs(best.delay_s) < 1e-3 * (kMaxDelay_ms - 0.5);
+  if (!is_inside || best.unexplained_share > kMaxUnexplained) return std::nullopt;
   return best;
 }
 
