@@ -41,19 +41,8 @@ Result<reconstruct::MarkersFit> fit_trials(std::span<const MarkerTracks> trials)
   return reconstruct::fit_markers({}, trials, named);
 }
 
-// A vertical force over time.
-struct Load {
-  std::vector<double> time_s;
-  std::vector<double> force_N;
-};
-
-struct LoadInterval {
-  double first_s = 0.0;
-  double last_s = 0.0;
-};
-
 // Returns the intervals above the threshold that begin and end within the recording.
-std::vector<LoadInterval> loaded(const Load& load) {
+std::vector<LoadInterval> loaded(const PlateLoad& load) {
   std::vector<LoadInterval> out;
   bool bears = false;
   double since_s = 0.0;
@@ -83,17 +72,18 @@ Status read_table_edges(const std::filesystem::path& file,
   for (int side = 0; side < 2; ++side) {
     const auto column = table->find(source.columns[static_cast<std::size_t>(side)]);
     if (!column) return bad_input(file.string(), "the force column is missing", "");
-    Load load;
+    PlateLoad load;
     for (std::size_t row = 0; row < table->rows(); ++row) {
-      load.time_s.push_back(table->time_s[row]);
+      load.time_s.push_back(table->time_s[row] - start_s);
       load.force_N.push_back(table->at(row, *column));
     }
-    for (const LoadInterval& one : loaded(load)) {
+    load.intervals = loaded(load);
+    for (const LoadInterval& one : load.intervals) {
       for (const bool is_strike : {true, false}) {
-        const double at_s = is_strike ? one.first_s : one.last_s;
-        trial.edges.push_back({at_s - start_s, side, is_strike});
+        trial.edges.push_back({is_strike ? one.first_s : one.last_s, side, is_strike});
       }
     }
+    trial.loads.push_back(std::move(load));
   }
   return Done{};
 }
@@ -159,7 +149,7 @@ void add_plate_edges(const recordings::ForcePlates& plates,
                      const recordings::ForcePlate& plate,
                      double start_s,
                      ContactTrial& trial) {
-  Load load;
+  PlateLoad load;
   std::vector<double> forces;
   for (const auto& sample : plate.samples) forces.push_back(sample.force_in_world.y);
   if (forces.empty()) return;
@@ -171,25 +161,43 @@ void add_plate_edges(const recordings::ForcePlates& plates,
   }
   const double offset_N = idle.empty() ? 0.0 : median(idle);
   for (std::size_t k = 0; k < forces.size(); ++k) {
-    load.time_s.push_back(plates.start_s + static_cast<double>(k) / plates.rate.hz);
+    load.time_s.push_back(plates.start_s - start_s +
+                          static_cast<double>(k) / plates.rate.hz);
     load.force_N.push_back(forces[k] - offset_N);
   }
-  for (const LoadInterval& one : loaded(load)) {
+  load.intervals = loaded(load);
+  for (const LoadInterval& one : load.intervals) {
     // The foot is known when the force is no longer small.
     constexpr double kInside_s = 0.04;
     for (const bool is_strike : {true, false}) {
-      const double at_s = (is_strike ? one.first_s : one.last_s) - start_s;
+      const double at_s = is_strike ? one.first_s : one.last_s;
       const double inside_s = is_strike ? at_s + kInside_s : at_s - kInside_s;
       const auto side = foot_on(trial, plates, plate, start_s, inside_s);
       if (!side) continue;
-      const double flat_s =
-          is_strike ? std::min(at_s + 0.12, 0.5 * (at_s + one.last_s - start_s))
-                    : std::max(at_s - 0.25, 0.5 * (at_s + one.first_s - start_s));
+      const double flat_s = is_strike ? std::min(at_s + 0.12, 0.5 * (at_s + one.last_s))
+                                      : std::max(at_s - 0.25, 0.5 * (at_s + one.first_s));
       const auto print = print_of(trial, *side, flat_s);
       const bool on_plate = std::all_of(print.begin(), print.end(), [&](const auto& p) {
         return is_inside(plate.corners_in_world, p);
       });
       if (on_plate) trial.edges.push_back({at_s, *side, is_strike});
+    }
+  }
+  trial.loads.push_back(std::move(load));
+}
+
+void add_heel_markers(const MarkerTracks& tracks, ContactTrial& trial) {
+  const auto names = reconstruct::name_markers(tracks.labels);
+  for (std::size_t i = 0; i < tracks.markers(); ++i) {
+    if (names.landmarks[i] == nullptr) continue;
+    for (const std::size_t side : {0U, 1U}) {
+      auto& heel = trial.heel_markers[side];
+      if (names.landmarks[i]->name != (side == 0 ? "left_heel" : "right_heel")) continue;
+      if (!heel.empty()) continue;
+      for (std::size_t t = 0; t < tracks.frames(); ++t) {
+        const auto& sample = tracks.at(t, i);
+        heel.push_back(sample ? std::optional(sample->p_in_world) : std::nullopt);
+      }
     }
   }
 }
@@ -235,20 +243,26 @@ std::vector<ContactSource> contact_sources() {
        rajagopal + "grf_walk.mot",
        {"ground_force_l_vy", "ground_force_r_vy"}},
       walk_of("walking2", "opensim-core/Tests/shared/walking2.c3d", true),
-      walk_of("walking5", "opensim-core/Tests/shared/walking5.c3d"),
-      walk_of("Qualisys", "ezc3d/Qualisys.c3d"),
-      walk_of("Hybrid 1", "c3d_org_samples/sample_26/Walking_Hybrid_1_1.c3d"),
-      walk_of("Hybrid 2", "c3d_org_samples/sample_26/Walking_Hybrid_2.c3d"),
+      walk_of("walking5", "opensim-core/Tests/shared/walking5.c3d", true),
+      walk_of("Qualisys", "ezc3d/Qualisys.c3d", true),
+      walk_of("Hybrid 1", "c3d_org_samples/sample_26/Walking_Hybrid_1_1.c3d", true),
+      walk_of("Hybrid 2", "c3d_org_samples/sample_26/Walking_Hybrid_2.c3d", true),
       walk_of("pyCGM2",
               "c3d_org_samples/sample_00/Vicon Motion Systems/"
-              "pyCGM2 lower limb CGM24 Walking01.c3d"),
+              "pyCGM2 lower limb CGM24 Walking01.c3d",
+              true),
       walk_of("IST gait",
-              "c3d_org_samples/sample_00/Innovative Sports Training/Gait with EMG.c3d"),
-      walk_of("gait-pig", "c3d_org_samples/sample_03/gait-pig.c3d"),
+              "c3d_org_samples/sample_00/Innovative Sports Training/Gait with EMG.c3d",
+              true),
+      walk_of("gait-pig", "c3d_org_samples/sample_03/gait-pig.c3d", true),
       walk_of("BMClab gait", "bmclab/Gait.c3d"),
       walk_of("MAC Walk1",
-              "c3d_org_samples/sample_00/Motion Analysis Corporation/Walk1.c3d"),
+              "c3d_org_samples/sample_00/Motion Analysis Corporation/Walk1.c3d",
+              true),
       walk_of("Eb015pr", "c3d_org_samples/sample_01/Eb015pr.c3d"),
+      walk_of("gait-pig-nz", "c3d_org_samples/sample_03/gait-pig-nz.c3d"),
+      walk_of("Codamotion",
+              "c3d_org_samples/sample_00/Codamotion/codamotion_gaitwands_19970212.c3d"),
   };
 }
 
@@ -268,11 +282,12 @@ Result<ContactTrial> read_contact_trial(const std::filesystem::path& mocap,
   if (!fit) return fit.error();
   auto solved = reconstruct::solve_markers(fit->body, trials[0]);
   if (!solved) return bad_input(source.markers, "no frame shows six markers", "");
-  ContactTrial trial{source.name, source.kind, source.is_tuned, {}, {}, {}};
+  ContactTrial trial{source.name, source.kind, source.is_tuned, {}, {}, {}, {}, {}};
   trial.motion = std::move(solved->estimate.motion);
   auto map = retarget::map_body(trial.motion.skeleton);
   if (!map) return map.error();
   trial.map = *std::move(map);
+  add_heel_markers(trials[0], trial);
   const double start_s = trials[0].start_s;
   if (!source.forces.empty()) {
     const Status read = read_table_edges(mocap / source.forces, source, start_s, trial);

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "core/base/result.h"
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
@@ -24,14 +26,31 @@ struct PlateEdge {
   bool is_strike = false;
 };
 
+/// Time in which a plate is loaded, on the clock of the motion.
+struct LoadInterval {
+  double first_s = 0.0;
+  double last_s = 0.0;
+};
+
+/// Vertical force on a plate, or on a foot, without the plate's offset.
+struct PlateLoad {
+  std::vector<double> time_s;  ///< On the clock of the motion.
+  std::vector<double> force_N;
+  std::vector<LoadInterval> intervals;  ///< Above kLoaded_N.
+};
+
 /// A recording with markers and force plates. The motion is fitted to the markers.
 struct ContactTrial {
   std::string name;
   std::string kind;       ///< "run", "walk" or "jump".
-  bool is_tuned = false;  ///< The rules were chosen on this recording.
+  bool is_tuned = false;  ///< The rules were chosen with this recording in view.
   Motion motion;
   retarget::BodyMap map;
   std::vector<PlateEdge> edges;  ///< In the order of time.
+  std::vector<PlateLoad> loads;
+  /// Marker on the heel of the left and of the right foot per frame, in the world; empty
+  /// if there is none.
+  std::array<std::vector<std::optional<glm::dvec3>>, 2> heel_markers;
 };
 
 /// Location of a recording below the folder `mocap` of the shared data.

@@ -3,7 +3,7 @@
 //
 // Errors of contact edges against force plates. Usage:
 //   measure_contact_edges [MOCAP_FOLDER] [--all]
-// --all prints every edge.
+// --all prints every edge: errors of detect_contacts() and of find_contact_edges().
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,6 +17,8 @@
 #include <vector>
 
 #include "benchmarks/retarget/contact_trials.h"
+#include "benchmarks/retarget/heel_rule.h"
+#include "benchmarks/retarget/plate_clock.h"
 #include "core/base/quantile.h"
 #include "retarget/contacts/contact_edges.h"
 #include "retarget/contacts/detect_contacts.h"
@@ -92,19 +94,48 @@ void print_errors(const std::string& name, const char* kind, const EdgeErrors& e
       "  %6.1f  %6.1f  %+6.1f +- %.1f\n", median(sizes), quantile(sizes, 0.9), mean, sd);
 }
 
-// Errors by rule ("detect", "edges") and kind of edge ("strike", "toe-off").
+// Errors by rule and kind of edge ("strike", "toe-off"). Rules: "detect", "edges", and
+// "clock", which are those of "edges" after correction of the plates' clock.
 using ErrorTable = std::map<std::string, std::array<EdgeErrors, 2>>;
+
+// Adds those of the design's rule for strikes, applied to the heel's marker ("marker")
+// and to the same place of the fitted foot ("fitted").
+void add_heel_errors(const ContactTrial& trial, ErrorTable& table) {
+  const double hz = trial.motion.rate.hz;
+  for (const PlateEdge& edge : trial.edges) {
+    if (!edge.is_strike) continue;
+    for (const auto& [rule, heights] :
+         {std::pair("marker", marker_heights(trial, edge.side)),
+          {"fitted", fitted_heights(trial, edge.side)}}) {
+      if (heights.empty()) continue;
+      EdgeErrors& errors = table[rule][0];
+      ++errors.of;
+      const auto found_s = strike_by_heel(heights, hz, edge.time_s);
+      if (found_s) errors.ms.push_back(1e3 * (*found_s - edge.time_s));
+    }
+  }
+}
 
 ErrorTable measure(const ContactTrial& trial, bool prints_all) {
   const double hz = trial.motion.rate.hz;
   const auto contacts = retarget::detect_contacts(trial.motion, trial.map);
   const auto edges = retarget::find_contact_edges(trial.motion, trial.map);
   ErrorTable table;
+  add_heel_errors(trial, table);
+  const auto clock = plate_clock(trial);
+  if (clock) {
+    std::printf("  plates delayed by %+.0f ms, unexplained %.3f\n",
+                1e3 * clock->delay_s,
+                clock->unexplained_share);
+  }
   for (const PlateEdge& edge : trial.edges) {
     const auto kind = static_cast<std::size_t>(edge.is_strike ? 0 : 1);
     const auto old_ms = error_ms(detected_times(contacts, edge, hz), edge.time_s);
     const auto new_ms = error_ms(found_times(edges, edge), edge.time_s);
-    for (const auto& [rule, ms] : {std::pair("detect", old_ms), {"edges", new_ms}}) {
+    auto clock_ms = new_ms;
+    if (clock && clock_ms) *clock_ms += 1e3 * clock->delay_s;
+    for (const auto& [rule, ms] :
+         {std::pair("detect", old_ms), {"edges", new_ms}, {"clock", clock_ms}}) {
       EdgeErrors& errors = table[rule][kind];
       ++errors.of;
       if (ms) errors.ms.push_back(*ms);

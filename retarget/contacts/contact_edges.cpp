@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "core/base/assert.h"
+#include "retarget/contacts/descent_arrest.h"
 #include "retarget/contacts/foot_paths.h"
 
 namespace marey::retarget {
@@ -29,6 +30,8 @@ struct EdgeScene {
   double strike_speed;  // Share of the swing's.
   double toe_off_speed_m_per_s;
   double min_swing_m_per_s;
+  double min_arrest_m_per_s2;
+  double arrest_delay_s;
   double flight_height_m;
   double on_floor_m;
 
@@ -140,6 +143,23 @@ std::optional<EdgeAt> strike_by_slowing(const EdgeScene& scene,
   return std::nullopt;
 }
 
+// First instant at which the floor arrests the descent of the foot, near the instant at
+// which its advance ends. The ball's height gives the most distinct step: the heel's
+// depends on the shoe.
+std::optional<EdgeAt> strike_by_arrest(const EdgeScene& scene,
+                                       std::size_t side,
+                                       const EdgeAt& slowed) {
+  std::vector<double> heights_m;
+  for (const glm::dvec3& p : scene.paths[side][kBallPoint].p_in_world) {
+    heights_m.push_back(p.y);
+  }
+  const auto arrest = find_descent_arrest(heights_m, scene.hz, slowed.frame);
+  if (!arrest || arrest->change_m_per_s2 < scene.min_arrest_m_per_s2) return std::nullopt;
+  const double frame = arrest->frame - scene.arrest_delay_s * scene.hz;
+  if (frame < 0.0) return std::nullopt;
+  return EdgeAt{frame, slowed.part};
+}
+
 std::optional<ContactEdge> find_strike(const EdgeScene& scene,
                                        std::size_t side,
                                        int stance_first) {
@@ -158,8 +178,11 @@ std::optional<ContactEdge> find_strike(const EdgeScene& scene,
     return edge(*landing, EdgeRule::kHeight);
   }
   const auto slowed = strike_by_slowing(scene, side, stance_first);
-  if (slowed && is_near(*slowed)) return edge(*slowed, EdgeRule::kSlowing);
-  return std::nullopt;
+  if (!slowed || !is_near(*slowed)) return std::nullopt;
+  if (const auto arrested = strike_by_arrest(scene, side, *slowed)) {
+    return edge(*arrested, EdgeRule::kArrest);
+  }
+  return edge(*slowed, EdgeRule::kSlowing);
 }
 
 std::optional<ContactEdge> find_toe_off(const EdgeScene& scene,
@@ -199,6 +222,8 @@ ContactEdges edges_of(const Motion& motion,
                         options.strike_speed_share,
                         options.toe_off_speed_legs_per_s * leg_m,
                         kMinSwing_legs_per_s * leg_m,
+                        options.arrest_legs_per_s2 * leg_m,
+                        options.arrest_delay_s,
                         options.flight_height_legs * leg_m,
                         kOnFloor_legs * leg_m};
   for (std::size_t side = 0; side < 2; ++side) {

@@ -22,7 +22,8 @@ enum class FootPart : unsigned char { kHeel, kBall };
 /// Rule that gave the time of an edge.
 enum class EdgeRule : unsigned char {
   kHeight,   ///< Strike after a flight: the foot comes down to its lowest height.
-  kSlowing,  ///< Strike while the other foot bears: the foot's advance ends.
+  kArrest,   ///< Strike while the other foot bears: the foot's descent is arrested.
+  kSlowing,  ///< The same if the foot lands softly: its advance ends.
   kLeaving,  ///< Toe-off: the ball leaves its place.
 };
 
@@ -54,6 +55,11 @@ struct ContactEdgeOptions {
   /// Horizontal speed of the part relative to the floor at any other strike, as a share
   /// of its maximum in the swing before.
   double strike_speed_share = 0.1;
+  /// Minimum step of the ball's vertical acceleration at such a strike. Softer strikes
+  /// are timed by the speed alone.
+  double arrest_legs_per_s2 = 12.0;
+  /// The foot's descent is arrested this long after the force passes 20 N.
+  double arrest_delay_s = 0.006;
   /// Speed of the ball relative to the floor at toe-off. The vertical speed counts half.
   double toe_off_speed_legs_per_s = 1.2;
   /// The body is in flight if the other foot is higher than this above its lowest height.
@@ -69,11 +75,12 @@ struct ContactEdgeOptions {
 /// - Strike after a flight (run, landing): the first instant at which the back of the
 ///   heel, the ball or the toe tip is within `strike_height_legs` of its lowest height of
 ///   the next 0.15 s.
-/// - Strike while the other foot bears (walk): the first instant from which the
-/// horizontal
-///   speed of the heel (or of the ball, if it lands first) remains below
-///   `strike_speed_legs_per_s`. A walking heel hovers just above the floor long before
-///   the strike, so heights do not give this edge.
+/// - Strike while the other foot bears (walk): the instant at which the descent of the
+///   ball is arrested (find_descent_arrest()), less `arrest_delay_s`. It is searched near
+///   the instant from which the horizontal speed of the heel (or of the ball, if it slows
+///   down first) remains below `strike_speed_share`. If the ball's acceleration steps by
+///   less than `arrest_legs_per_s2`, that instant is the strike. A walking heel hovers
+///   just above the floor long before the strike, so heights do not give this edge.
 /// - Toe-off: the first instant at which the ball is faster than
 ///   `toe_off_speed_legs_per_s`. A walking toe leaves low and rises late, a running one
 ///   rises first, so that both directions count.

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -66,6 +68,49 @@ TEST(PlateEdges, AreFoundInADropJumpWithinAFrame) {
     ASSERT_TRUE(stance.toe_off);
     EXPECT_NEAR(stance.toe_off->time_s, kTakeoff_s[side], kFrame_s);
   }
+}
+
+struct PlateStrike {
+  std::size_t side = 0;
+  double time_s = 0.0;
+};
+
+void expect_strikes(const std::vector<fs::path>& files,
+                    const std::vector<PlateStrike>& strikes,
+                    double within_s) {
+  const auto motion = fitted_motion(files);
+  ASSERT_TRUE(motion);
+  const auto map = retarget::map_body(motion->skeleton);
+  ASSERT_TRUE(map);
+  const auto edges = retarget::find_contact_edges(*motion, *map);
+  for (const PlateStrike& strike : strikes) {
+    double nearest_s = 1.0;
+    for (const auto& stance : edges.feet[strike.side]) {
+      if (!stance.strike) continue;
+      const double off_s = std::abs(stance.strike->time_s - strike.time_s);
+      if (off_s > nearest_s) continue;
+      nearest_s = off_s;
+      EXPECT_TRUE(off_s > within_s || stance.strike->rule == retarget::EdgeRule::kArrest);
+    }
+    EXPECT_LT(nearest_s, within_s) << strike.time_s << " s";
+  }
+}
+
+// Three people. Times at which the vertical force passes 20 N.
+// Markers at 100, 200 and 240 Hz.
+TEST(PlateEdges, AreFoundInWalksWithin12ms) {
+  const fs::path mocap = testing::shared_data() / "mocap";
+  const fs::path shoes = mocap / "opensim-models" / "Rajagopal" / "ExpData";
+  if (!fs::exists(shoes)) GTEST_SKIP() << "the recordings are not there";
+  constexpr double kWithin_s = 0.012;
+  expect_strikes({shoes / "motion_capture_walk.trc", shoes / "static_walk_1.trc"},
+                 {{1, 0.2675}, {0, 0.8363}, {1, 1.4120}},
+                 kWithin_s);
+  expect_strikes(
+      {mocap / "ezc3d" / "Qualisys.c3d"}, {{0, 0.0744}, {1, 0.5378}}, kWithin_s);
+  expect_strikes({mocap / "c3d_org_samples" / "sample_26" / "Walking_Hybrid_1_1.c3d"},
+                 {{1, 0.6519}, {0, 1.1687}},
+                 kWithin_s);
 }
 
 }  // namespace

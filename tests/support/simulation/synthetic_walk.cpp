@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/simulation/synthetic_walk.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -60,6 +61,19 @@ Foot foot_at(double cycles, const glm::dvec3& ankle, const glm::dvec3& ball_from
   return foot;
 }
 
+// Height of a foot above its path: it hovers, falls and is arrested.
+double fall_height(double cycles, double fall_m_per_s2) {
+  constexpr double kFall_s = 0.03;
+  const double phase = cycles - std::floor(cycles);
+  if (phase < kToeOff) {
+    const double left_s = std::max(0.0, kFall_s - phase * kCycle_s);
+    return 0.5 * fall_m_per_s2 * left_s * left_s;
+  }
+  const double raised = smooth(std::min(1.0, 2.0 * (phase - kToeOff) / (1.0 - kToeOff)));
+  const double fallen_s = std::max(0.0, kFall_s - (1.0 - phase) * kCycle_s);
+  return fall_m_per_s2 * (raised * kFall_s * kFall_s - 0.5 * fallen_s * fallen_s);
+}
+
 // Rotations of thigh, shank and foot, in the world, that put the ankle where it belongs.
 void place_leg(const Skeleton& body,
                int side,
@@ -92,7 +106,8 @@ void place_leg(const Skeleton& body,
 
 }  // namespace
 
-SyntheticWalk synthetic_walk(int frames, double hz, double noise_rad, double noise_m) {
+SyntheticWalk synthetic_walk(
+    int frames, double hz, double noise_rad, double noise_m, double fall_m_per_s2) {
   SyntheticWalk walk;
   const Proportions p = average_proportions(1.75);
   walk.motion.skeleton = make_humanoid(p);
@@ -115,7 +130,8 @@ SyntheticWalk synthetic_walk(int frames, double hz, double noise_rad, double noi
       // The right foot is half a cycle ahead.
       const double own = cycles + 0.5 * side;
       start.z -= 0.5 * side * kStride_m;
-      const Foot foot = foot_at(own, start, p[toes]);
+      Foot foot = foot_at(own, start, p[toes]);
+      foot.ankle.y += fall_height(own, fall_m_per_s2);
       walk.feet[static_cast<std::size_t>(side)].heel.push_back(foot.heel);
       walk.feet[static_cast<std::size_t>(side)].ball.push_back(foot.ball);
       place_leg(walk.motion.skeleton, side, pose.root_in_world, foot, world_from_joint);

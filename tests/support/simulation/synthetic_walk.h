@@ -21,10 +21,14 @@ struct SyntheticWalk {
 };
 
 /// `frames` frames at `hz`; every joint rotation disturbed by `noise_rad` and the root by
-/// `noise_m` per axis (standard deviations, fixed seed).
+/// `noise_m` per axis (standard deviations, fixed seed). With `fall_m_per_s2`, a foot
+/// hovers at the end of its swing, falls with this acceleration in the 30 ms before the
+/// strike and is arrested as fast in the 30 ms after it. The left foot strikes at whole
+/// cycles of 1.1 s, the right one at halves.
 [[nodiscard]] SyntheticWalk synthetic_walk(int frames,
                                            double hz,
                                            double noise_rad = 0.0,
-                                           double noise_m = 0.0);
+                                           double noise_m = 0.0,
+                                           double fall_m_per_s2 = 0.0);
 
 }  // namespace marey::testing
