@@ -212,7 +212,8 @@ async function run(browser, file) {
   }
   await page.evaluate(() => {
     const {timeline, reel: {playback}} = window.mareyPage;
-    timeline.window.zoom(0.03, playback.frame);
+    const {from, to} = timeline.window;
+    timeline.window.zoom(200 / (to - from), playback.frame);
   });
   await page.waitForTimeout(500);
   await measure(all, 'edge of a contact', async () => dragAt(page, await edge(page), [40, 0]));
