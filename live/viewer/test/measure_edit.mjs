@@ -134,13 +134,13 @@ async function measure({page, marey, client}, label, act) {
     }).filter(Boolean);
     const [marey_ms, thread_ms] = used.map((ms) => (ms / Math.max(done.length, 1)).toFixed(1));
     const parts = (from, to) => words(done.map((one) => one[to] - one[from]));
-    console.log(`${label}, ${draws ? 'drawn in software' : 'without drawing'}: ` +
-      `${moves.length} changes, ${done.length} pictures; event to ` +
-      `${draws ? 'pixels' : 'decoded frames'} ${words(ends.map(({all}) => all))}; of it marey ` +
-      `and its message ${parts('sent_ms', 'answer_ms')}, fetch and decode ` +
-      `${parts('answer_ms', 'decoded_ms')}; processor time a picture: marey ${marey_ms} ms, ` +
-      `main thread of the page ${thread_ms} ms; ${message} bytes and ${frames} frames a ` +
-      `picture; load ${loadavg()[0].toFixed(1)}`);
+    console.log(`${label}, ${draws ? 'drawn in software' : 'without drawing'}, ` +
+      `load ${loadavg()[0].toFixed(1)}: ${moves.length} changes, ${done.length} pictures\n` +
+      `  event to ${draws ? 'pixels' : 'decoded frames'}: ${words(ends.map(({all}) => all))}\n` +
+      `  request to answer: ${parts('sent_ms', 'answer_ms')}\n` +
+      `  fetch and decode: ${parts('answer_ms', 'decoded_ms')}\n` +
+      `  processor time of marey, of the page's main thread: ${marey_ms}, ${thread_ms} ms\n` +
+      `  size of an answer: ${message} bytes, ${frames} frames`);
   }
 }
 
