@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // node test/draw_edit.mjs MOTION.npz FOLDER: draws the pictures of docs/editing.md with the page
-// of `marey edit`: edit.png, edit-loop.png, edit-ghost.png and edit-trim.png. MAREY_PROGRAM is
-// marey. The pictures in docs/images show the walk of the sample session (./run demo).
+// of `marey edit`: edit-loop.png, edit-ghost.png, edit-hand.png and edit-trim.png. MAREY_PROGRAM
+// is marey. The pictures in docs/images show the walk of the sample session (./run demo).
 
 import {copyFileSync, mkdtempSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
