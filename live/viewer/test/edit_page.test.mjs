@@ -11,7 +11,7 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 import {openBrowser, openPage} from './browser.mjs';
-import {apart, drag, end, end_all, joint, serve, until} from './marey_process.mjs';
+import {apart, drag, end, end_all, handle_at, joint, serve, until} from './marey_process.mjs';
 
 const {MAREY_PROGRAM, MAREY_RESULTS} = process.env;
 /** Index of the edited body in the scene; the source is 0. */
@@ -274,6 +274,17 @@ test('a dragged hand makes a key, a dragged point a path, a click in the map a l
   const {page, troubles, close, marey} = await open_empty('space');
   await seek(page, 30);
   const hand = await joint(page, RESULT, 'leftHand');
+  const [x, y] = await handle_at(page, 'Left hand');
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 20, y - 60, {steps: 6});
+  await until('the hand to follow', async () =>
+    apart(await joint(page, RESULT, 'leftHand'), hand) > 0.05);
+  await page.keyboard.press('Escape');
+  await page.mouse.up();
+  await until('the hand to be back', async () =>
+    apart(await joint(page, RESULT, 'leftHand'), hand) < 1e-3);
+  assert.equal((await state(page)).ops.length, 0, 'Escape makes no key');
   await drag(page, 'Left hand', 20, -60);
   await has_ops(page, 1);
   const [key] = (await state(page)).ops;

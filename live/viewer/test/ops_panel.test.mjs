@@ -58,6 +58,17 @@ test('typing previews, Enter commits once, Escape restores', async () => {
   assert.equal(await input('width_s').inputValue(), '0.7');
 });
 
+test('a held arrow key previews each step and commits once', async () => {
+  await select(3);
+  await input('width_s').focus();
+  for (let i = 0; i < 3; ++i) await page.keyboard.down('ArrowUp');
+  const steps = await calls();
+  assert.deepEqual(steps.map(([name]) => name), ['preview', 'preview', 'preview']);
+  await page.keyboard.up('ArrowUp');
+  await input('width_s').blur();
+  assert.deepEqual(await calls(), [['commit', steps[2][1]]]);
+});
+
 test('a wrong value is marked and not sent; a default value removes its key', async () => {
   await select(3);
   await input('width_s').fill('-1');

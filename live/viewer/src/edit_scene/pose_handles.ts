@@ -28,7 +28,8 @@ const MIN_DRAG_M = 0.0005;
 
 /** Object that a handle belongs to. */
 type Target = {bone: string; joint: number} | {constraint: EditConstraintWords};
-interface Grip {target: Target; start: Vector; at: Instant; change: Change | null}
+/** A drag: `from` is the place of the handle, `start` that of its joint in the whole frame. */
+interface Grip {target: Target; from: Vector; start: Vector; at: Instant; change: Change | null}
 
 export class PoseHandles {
   readonly element: HTMLElement;
@@ -94,9 +95,9 @@ export class PoseHandles {
     if (phase === 'begin') this.begin(id, p_in_world);
     const {grip} = this;
     if (!grip || phase === 'begin') return;
-    const [x, y, z] = grip.start;
-    const [dx, dy, dz] = [p_in_world[0] - x, p_in_world[1] - y, p_in_world[2] - z];
-    grip.change = Math.hypot(dx, dy, dz) < MIN_DRAG_M ? null
+    const [dx, dy, dz] = p_in_world.map((part, k) => part - grip.start[k]);
+    const away_m = Math.hypot(...p_in_world.map((part, k) => part - grip.from[k]));
+    grip.change = away_m < MIN_DRAG_M ? null
       : this.changeOf(grip.target, [dx, dy, dz], p_in_world, grip.at);
     if (phase === 'move') {
       if (grip.change) this.view.preview(grip.change);
@@ -182,7 +183,7 @@ export class PoseHandles {
       this.stage.draw();
       start = this.jointInWorld(target.joint) ?? start;
     }
-    this.grip = {target, start, at: this.instant(frame), change: null};
+    this.grip = {target, from: [...p_in_world], start, at: this.instant(frame), change: null};
   }
 
   private changeOf(target: Target, moved_m: Vector, to_m: Vector, at: Instant): Change | null {

@@ -73,17 +73,28 @@ export abstract class Entry<T extends number | string> {
   problem = '';
   /** The user has changed the text, and the value has not been taken. */
   private isTyped = false;
+  /** An arrow key is down: its repeats are one change, which ends when it is released. */
+  private isStepping = false;
 
   /** `changed` receives valid values; undefined: the input is empty. */
   constructor(attributes: Record<string, string | number | null>,
     private readonly changed: (value: T | undefined, isDone: boolean) => void,
     private readonly told: () => void) {
     this.input = el('input', {...attributes, autocomplete: 'off', spellcheck: 'false',
-      oninput: () => this.read(false), onchange: () => this.read(true),
+      oninput: () => this.read(false),
+      onchange: () => { if (!this.isStepping) this.read(true); },
       onkeydown: (event: KeyboardEvent) => {
+        const isStep = event.key === 'ArrowUp' || event.key === 'ArrowDown';
+        if (isStep && attributes.type === 'number') this.isStepping = true;
         // A change event follows only if the text differs from the one at the last focus.
         if (event.key === 'Enter' && this.isTyped) this.read(true);
-      }});
+      }, onkeyup: () => this.endSteps(), onblur: () => this.endSteps()});
+  }
+
+  private endSteps(): void {
+    if (!this.isStepping) return;
+    this.isStepping = false;
+    this.read(true);
   }
 
   /** Returns the value of a text that is not empty; a problem as an Error. */

@@ -28,6 +28,11 @@ export class HandleDrag {
         if (pointerId === this.grip?.pointer) this.letGo();
       });
     }
+    window.addEventListener('keydown', (event) => {
+      if (event.key !== 'Escape' || !this.grip) return;
+      event.stopPropagation();
+      this.giveUp(this.grip);
+    }, true);
   }
 
   /** Id of the dragged handle. */
@@ -92,6 +97,14 @@ export class HandleDrag {
     this.view.held = held;
     this.renderer.canvas.classList.toggle('over-handle', held !== null);
     this.renderer.invalidate();
+  }
+
+  /** Ends a drag at the place where it began. */
+  private giveUp({id, pointer, start}: Grip): void {
+    const moved = this.view.handles.find(({words}) => words.id === id);
+    if (moved) this.view.move(moved, start);
+    this.letGo();
+    this.renderer.canvas.releasePointerCapture(pointer);
   }
 
   private letGo(): void {
