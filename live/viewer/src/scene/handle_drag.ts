@@ -17,8 +17,10 @@ interface Grip {id: string; pointer: number; start: Vector; normal: Vector; off:
 export class HandleDrag {
   private grip: Grip | null = null;
 
+  /** `giveUp`: Escape ends a drag with it, instead of with the phase `end`. */
   constructor(private readonly renderer: Renderer, private readonly view: ConstraintView,
-    private readonly drag: (id: string, p_in_world: Vector, phase: DragPhase) => void) {
+    private readonly drag: (id: string, p_in_world: Vector, phase: DragPhase) => void,
+    giveUp?: (id: string) => void) {
     const {canvas} = renderer;
     // Before the orbit's own listeners.
     canvas.addEventListener('pointerdown', (event) => this.down(event), true);
@@ -27,6 +29,12 @@ export class HandleDrag {
       canvas.addEventListener(kind, ({pointerId}) => {
         if (pointerId === this.grip?.pointer) this.letGo();
       });
+    }
+    if (giveUp) {
+      // Whichever element has the focus.
+      window.addEventListener('keydown', (event) => {
+        if (event.key === 'Escape' && this.grip) this.drop(event, giveUp);
+      }, true);
     }
   }
 
@@ -91,6 +99,15 @@ export class HandleDrag {
     if (held === this.view.held) return;
     this.view.held = held;
     this.renderer.canvas.classList.toggle('over-handle', held !== null);
+    this.renderer.invalidate();
+  }
+
+  private drop(event: Event, giveUp: (id: string) => void): void {
+    event.stopImmediatePropagation();
+    const {id} = this.grip!;
+    this.grip = null;
+    this.view.held = null;
+    giveUp(id);
     this.renderer.invalidate();
   }
 
