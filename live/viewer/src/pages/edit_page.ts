@@ -262,10 +262,10 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
   }
 
   async commit(change: Change): Promise<boolean> {
-    let after = this.until;
+    let after: number | null = null;
     const done = this.document.change((ops) => {
       const steps = change(ops);
-      if (steps && this.until !== null) after = untilAfter(steps, this.until);
+      if (steps && this.until !== null && !this.isFallback) after = untilAfter(steps, this.until);
       return steps;
     });
     this.document.dropPreview();
@@ -274,7 +274,7 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     // The revision's message comes before its answer, and shows the motion until here.
     const isDone = await done;
     if (!isDone) this.cancel();
-    else if (after !== this.until) this.lookAt(after);
+    else if (after !== null && after !== this.until) this.lookAt(after);
     return isDone;
   }
 
