@@ -217,6 +217,7 @@ export class EditDocument {
 }
 
 /** Returns the operation without its version: "cut" for "cut@1". */
-export function opName(op: Pick<OpKeys, 'do'>): string {
-  return op.do.split('@')[0];
+export function opName({do: name}: Pick<OpKeys, 'do'>): string {
+  const end = name.indexOf('@');
+  return end < 0 ? name : name.slice(0, end);
 }

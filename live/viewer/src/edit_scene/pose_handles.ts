@@ -67,7 +67,8 @@ export class PoseHandles {
   /** Sets the skeletons of the scene, after Stage.setScene(). */
   setSkeletons(skeletons: readonly SkeletonWords[]): void {
     const joints = skeletons[RESULT]?.joints ?? [];
-    const [source_m, result_m] = [SOURCE, RESULT].map((i) => legLength_m(skeletons[i]?.joints ?? []));
+    const [source_m, result_m] = [SOURCE, RESULT].map((i) =>
+      legLength_m(skeletons[i]?.joints ?? []));
     this.scale = source_m && result_m ? source_m / result_m : 1;
     this.joints = BONES.map((bone) => ({bone, joint: joints.findIndex((one) => one.bone === bone)}))
       .filter(({joint}) => joint >= 0);
