@@ -168,8 +168,8 @@ export class EditDocument {
     });
     if (answer.type === 'error') this.listener.onRefused(answer.text);
     else if (answer.type === 'stale') {
-      this.listener.onRefused('Another page changed the recipe at the same time; this change ' +
-        'was not made. Repeat it.');
+      this.listener.onRefused('Another page or program changed the recipe at the same time; ' +
+        'this change was not made. Repeat it.');
     }
     return answer;
   }
