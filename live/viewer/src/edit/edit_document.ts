@@ -19,7 +19,7 @@ export interface DocumentListener {
   onProgress(progress: ProgressWords): void;
   /** A new result. */
   onRendered(rendered: RenderedWords): void;
-  /** The answer to preview(), or to show(): `isChanged` tells which. */
+  /** The answer to preview(), or to show() if not `isChanged`. */
   onPreview(preview: PreviewWords, isChanged: boolean): void;
   /** A request was refused. */
   onRefused(text: string): void;

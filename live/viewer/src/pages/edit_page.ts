@@ -72,7 +72,7 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
   private readonly loops: LoopsPanel;
   private scene: SceneWords | null = null;
   private skeletons: Bodies = [];
-  /** What `output` is from. */
+  /** The message that contains `output`. */
   private parts: RenderedParts | null = null;
   private shownPreview: Preview | null = null;
   /** A gesture is in progress, so that the motion under it stays. */
@@ -80,7 +80,7 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
   /** The result could not be computed yet, so that the motion before the failed operation is
    *  shown. */
   private isFallback = false;
-  /** What happens when the motion that lookAt() requested is shown. */
+  /** Called when the motion that lookAt() requested is shown. */
   private whenShown: (() => void) | null = null;
   private stale = true;
   private last_ms = 0;
@@ -201,7 +201,7 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
   /** Shows a motion with its figures. */
   private async take(parts: RenderedParts): Promise<void> {
     const skeletons = bodiesOf(parts, this.scene);
-    if (!skeletons) return; // Of a scene that is replaced; the next result follows.
+    if (!skeletons) return; // Its scene is replaced; the next result follows.
     this.outputIndex = Math.min(this.outputIndex, parts.outputs.length - 1);
     const output = parts.outputs[this.outputIndex];
     if (!output) return;
