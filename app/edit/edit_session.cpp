@@ -86,6 +86,7 @@ fs::path journal_of(const fs::path& recipe_file) {
 }
 
 struct EditSession::Opened {
+  std::string file_text;
   EditJournal journal;
   EditRecipe recipe;
   EditFiles files;
@@ -116,7 +117,10 @@ Result<std::unique_ptr<EditSession>> EditSession::open(const EditSessionOptions&
   // With the lines of its own text.
   auto own = recordings::parse_edit_recipe(text, options.recipe_file);
   if (!own) return own.error();
-  Opened opened{*std::move(journal), *std::move(own), *std::move(files)};
+  auto file_text = recordings::read_file(options.recipe_file);
+  if (!file_text) return file_text.error();
+  Opened opened{
+      *std::move(file_text), *std::move(journal), *std::move(own), *std::move(files)};
   return std::unique_ptr<EditSession>(
       new EditSession(std::move(opened), options, listener));
 }
@@ -125,6 +129,7 @@ EditSession::EditSession(Opened opened,
                          const EditSessionOptions& options,
                          EditListener& listener)
     : recipe_file_(options.recipe_file),
+      file_text_(std::move(opened.file_text)),
       journal_(std::move(opened.journal)),
       recipe_(std::move(opened.recipe)),
       avatars_(avatars_of(recipe_)),
@@ -159,6 +164,28 @@ std::optional<EditOutcome> EditSession::check_base(int base_revision) const {
   return EditStale{revision().number};
 }
 
+/// Makes a revision of the recipe's file if another program has changed it. Then returns
+/// the answer to the change that was requested.
+std::optional<EditOutcome> EditSession::take_file() {
+  auto text = recordings::read_file(recipe_file_);
+  // A file that is gone is written again with the change.
+  if (!text || *text == file_text_) return std::nullopt;
+  auto recipe = recordings::parse_edit_recipe(*text, recipe_file_);
+  if (!recipe) return recipe.error();
+  file_text_ = *std::move(text);
+  if (recipe->name.empty()) recipe->name = recipe_stem(recipe_file_);
+  const std::string own_text = recordings::edit_recipe_text(*recipe);
+  if (own_text == recipe_text()) return std::nullopt;
+  auto own = recordings::parse_edit_recipe(own_text, recipe_file_);
+  if (!own) return own.error();
+  if (const Status ok = journal_.add(EditCause::kFile, own_text); !ok) return ok.error();
+  recipe_ = *std::move(own);
+  avatars_.merge(avatars_of(recipe_));
+  listener_.on_revision(*this);
+  worker_.render(revision().number, recipe_);
+  return EditStale{revision().number};
+}
+
 /// Takes the recipe of the journal's newest revision, if that could be stored.
 EditOutcome EditSession::adopt(EditRecipe recipe, const Status& stored) {
   if (!stored) return stored.error();
@@ -168,10 +195,12 @@ EditOutcome EditSession::adopt(EditRecipe recipe, const Status& stored) {
   worker_.render(revision().number, recipe_);
   const Status written = recordings::write_file(recipe_file_, recipe_text());
   if (!written) return written.error();
+  file_text_ = recipe_text();
   return EditAccepted{revision().number};
 }
 
 EditOutcome EditSession::edit(const live::EditRequest& request) {
+  if (auto answer = take_file()) return *answer;
   if (auto stale = check_base(request.base_revision)) return *stale;
   auto recipe = apply_patch(recipe_, request.patch, avatars_);
   if (!recipe) return recipe.error();
@@ -188,6 +217,7 @@ EditOutcome EditSession::restore(const std::string& text, bool is_undo) {
 }
 
 EditOutcome EditSession::undo(const live::UndoRequest& request) {
+  if (auto answer = take_file()) return *answer;
   if (auto stale = check_base(request.base_revision)) return *stale;
   if (!can_undo()) {
     return bad_input("undo", "nothing is left to undo", "redo, or change the edit");
@@ -196,6 +226,7 @@ EditOutcome EditSession::undo(const live::UndoRequest& request) {
 }
 
 EditOutcome EditSession::redo(const live::RedoRequest& request) {
+  if (auto answer = take_file()) return *answer;
   if (auto stale = check_base(request.base_revision)) return *stale;
   if (!can_redo()) {
     return bad_input("redo", "nothing is left to redo", "undo, or change the edit");

@@ -73,7 +73,9 @@ class EditSession {
 
   /// Makes a revision, stores it in the journal and in the recipe's file, and starts to
   /// render it. After an error nothing is changed, unless only the recipe's file could
-  /// not be written: then the next revision writes it.
+  /// not be written: then the next revision writes it. A file that another program has
+  /// changed becomes a revision first, so that the change is stale; it is not replaced
+  /// if it cannot be read.
   [[nodiscard]] EditOutcome edit(const live::EditRequest& request);
   [[nodiscard]] EditOutcome undo(const live::UndoRequest& request);
   [[nodiscard]] EditOutcome redo(const live::RedoRequest& request);
@@ -92,10 +94,12 @@ class EditSession {
   struct Opened;  // Everything that open() reads.
   EditSession(Opened opened, const EditSessionOptions& options, EditListener& listener);
   [[nodiscard]] std::optional<EditOutcome> check_base(int base_revision) const;
+  [[nodiscard]] std::optional<EditOutcome> take_file();
   [[nodiscard]] EditOutcome adopt(EditRecipe recipe, const Status& stored);
   [[nodiscard]] EditOutcome restore(const std::string& text, bool is_undo);
 
   std::filesystem::path recipe_file_;
+  std::string file_text_;  ///< Of the recipe's file when it was read or written last.
   EditJournal journal_;
   EditRecipe recipe_;
   std::set<std::string> avatars_;

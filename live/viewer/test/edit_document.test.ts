@@ -122,7 +122,8 @@ test('without a connection a change is refused with a next step, and later ones 
   assert.equal(await edit.undo(), false, 'nothing to undo in revision 1');
   assert.equal(await edit.change(() => [{remove: 0}]), false);
   assert.equal(refused.length, 2);
-  assert.match(refused[0], /still running/);
+  assert.match(refused[0], /whether the last change was made/);
+  assert.match(refused[1], /still running/);
   connection.open = true;
   const later = edit.change(() => [{remove: 0}]);
   await settle();

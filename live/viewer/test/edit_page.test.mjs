@@ -6,12 +6,16 @@
 
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {cpSync, mkdtempSync, readdirSync, readFileSync, rmSync} from 'node:fs';
+import {
+  cpSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync,
+} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 import {openBrowser, openPage} from './browser.mjs';
-import {apart, drag, end, end_all, handle_at, joint, serve, until} from './marey_process.mjs';
+import {
+  apart, drag, end, end_all, handle_at, joint, serve, until,
+} from './marey_process.mjs';
 
 const {MAREY_PROGRAM, MAREY_RESULTS} = process.env;
 /** Index of the edited body in the scene; the source is 0. */
@@ -312,6 +316,64 @@ test('a dragged hand makes a key, a dragged point a path, a click in the map a l
   await page.getByRole('button', {name: 'Loop here'}).click();
   await has_ops(page, 2);
   assert.equal((await state(page)).ops[1].do, 'cyclify@1');
+  assert.deepEqual(troubles, []);
+  await end(marey);
+  await close();
+});
+
+test('Escape gives a drag up; a given-up preview is not shown', async () => {
+  const {page, troubles, close, marey} = await open_empty('escape');
+  assert.ok(await commit(page, {insert: 0, op: {do: 'filter@1'}}));
+  await shown(page);
+  await seek(page, 30);
+  const [x, y] = await handle_at(page, 'Left hand');
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 10, y - 30, {steps: 4});
+  await page.keyboard.press('Escape');
+  await page.mouse.up();
+  // The motion before the filter; the answer to the preview arrives after its end.
+  await page.evaluate(() => window.mareyPage.lookAt(0));
+  await until('the source', () => page.evaluate(() => window.mareyPage.parts.until === 0));
+  await seek(page, 20);
+  const hand = await joint(page, RESULT, 'leftHand');
+  await page.evaluate(() => {
+    window.mareyPage.preview(() => [{insert: 0, op: {do: 'pose@1', at_frame: 20,
+      bone: 'leftHand', moved_m: [0, 0.15, 0]}}]);
+    setTimeout(() => window.mareyPage.cancel(), 0);
+  });
+  await until('all answers', () => page.evaluate(() =>
+    window.mareyPage.document.waiting.size === 0 && !window.mareyPage.stale));
+  await seek(page, 20);
+  assert.ok(apart(await joint(page, RESULT, 'leftHand'), hand) < 1e-6);
+  assert.equal((await state(page)).ops.length, 1);
+  assert.deepEqual(troubles, []);
+  await end(marey);
+  await close();
+});
+
+test('a recipe that fails when it is opened is repaired on the page', async () => {
+  const file = join(folder, 'broken.edit.toml');
+  writeFileSync(file, 'format = 1\n[source]\npath = "walk.npz"\n[[op]]\ndo = "filter@1"\n' +
+    '[[op]]\ndo = "cut@1"\nfrom_s = 100.0\nto_s = 101.0\n');
+  const {address, marey} = await serve('edit', file, '--page');
+  const {page, troubles, close} = await openPage(browser, address);
+  await page.locator('.op-open').nth(1).focus();
+  await page.keyboard.press('Delete');
+  await has_ops(page, 1);
+  assert.equal(await page.evaluate(() => window.mareyPage.until), null);
+
+  // Another program changes the file: its change is kept, and that of the page refused.
+  writeFileSync(file, `${readFileSync(file, 'utf8')}[[op]]\ndo = "mirror@1"\n`);
+  assert.ok(!await commit(page, {remove: 0}));
+  await has_ops(page, 2);
+  assert.match(readFileSync(file, 'utf8'), /mirror@1/);
+  assert.ok(await commit(page, {remove: 0}));
+  await has_ops(page, 1);
+  assert.deepEqual((await state(page)).ops, [{do: 'mirror@1'}]);
+  writeFileSync(file, 'no recipe [');
+  assert.ok(!await commit(page, {remove: 0}));
+  assert.equal(readFileSync(file, 'utf8'), 'no recipe [');
   assert.deepEqual(troubles, []);
   await end(marey);
   await close();

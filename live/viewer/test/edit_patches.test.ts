@@ -330,6 +330,19 @@ test('an annotation of a tag or event moves with its operation', () => {
   assert.equal(moveAnnotation(seen, other, 2, 2)(seen.document.ops), null);
 });
 
+test('annotations of the same text have their handles in one row', () => {
+  const seen = view([{do: 'tag@1', text: 'walk', from_s: 0.2, to_s: 1},
+    {do: 'tag@1', text: 'walk', from_s: 1.5, to_s: 2}, {do: 'event@1', text: 'beat', at_s: 1}],
+  {annotations: [{text: 'walk', start_s: 0.2, end_s: 1}, {text: 'walk', start_s: 1.5, end_s: 2},
+    {text: 'beat', start_s: 1, end_s: 1}]});
+  const framesIn = (row: number) => handlesIn(seen, null, 'annotations', row).map(({frame}) =>
+    Math.round(frame));
+  assert.deepEqual([framesIn(0), framesIn(1), framesIn(2)], [[20, 100, 150, 200], [100], []]);
+  const near = handlesIn(seen, null, 'axis', 0, [90, 110]).filter(({role}) => role === 'mark');
+  assert.deepEqual(near.map(({name}) => name), ['beat']);
+  assert.ok(handlesIn(seen, null, 'axis', 0, [0, 90]).every(({role}) => role === 'trim'));
+});
+
 test('annotations and contact events have times in the shown motion', () => {
   const {output} = view([], {annotations: [{text: 'a', start_s: 1, end_s: 2}], contacts: [
     {name: 'left heel', foot: 'left', part: 'heel', spans: [[0, 40], [100, 140], [200, 240]]},

@@ -9,6 +9,7 @@ import type {Change} from '../src/edit/edit_document';
 import {opToChange} from '../src/edit_scene/op_to_change';
 import {pathOpWithPoints, pointsChange, pointsOf, shapeChange, shownShape} from
   '../src/edit_scene/path_changes';
+import {legLength_m} from '../src/edit_scene/leg_length';
 import {constraintChange, isActiveAt, newConstraint, newConstraintName, poseChange} from
   '../src/edit_scene/pose_changes';
 import type {EditConstraintWords, OpKeys, OpStep, OpWords} from '../src/protocol/edit_protocol';
@@ -128,10 +129,12 @@ test('points change the path just before; annotations and switched-off operation
   assert.equal(pathOpWithPoints(later, null, null), null);
   assert.equal(pathOpWithPoints(later, null, 1), 1, 'the selected one');
   assert.equal(pathOpWithPoints(later, 1, 1), null, 'not one that is not applied');
-  // Before a retarget, which stays last.
+  // The points are in the avatar's world, which a retarget has scaled.
   assert.deepEqual(steps(pointsChange([[0, 0], [1, 0]], null, null),
-    [op({do: 'retarget@1', avatar: 'a'})]), [{insert: 0, op: {do: 'path@1',
+    [op({do: 'retarget@1', avatar: 'a'})]), [{insert: 1, op: {do: 'path@1',
     points_xz_m: [[0, 0], [1, 0]]}}]);
+  assert.deepEqual(steps(shapeChange(() => ({length: 1.2}), null),
+    [op({do: 'retarget@1', avatar: 'a'})]), [{insert: 0, op: {do: 'path@1', length: 1.2}}]);
   assert.equal(pointsOf({do: 'path@1', points_xz_m: [[0, 0, 1], [1, 1, 1]]}), null);
 });
 
@@ -203,15 +206,35 @@ test('names of new constraints are new', () => {
   assert.equal(newConstraintName('hips', ops, []), 'hips 1');
 });
 
+const same = {until: null, scale: 1};
+
+test('legs are measured across joints between them', () => {
+  const leg = (side: string, hips: number, first: number): JointWords[] => [
+    joint(`${side}UpperLeg`, hips, [0.1, 0, 0]), joint('', first, [0, -0.2, 0]),
+    joint(`${side}LowerLeg`, first + 1, [0, -0.2, 0.1]),
+    joint(`${side}Foot`, first + 2, [0, 0, 0.5])];
+  const joints = [joint('hips', -1, [0, 1, 0]), ...leg('left', 0, 1), ...leg('right', 0, 5)];
+  assert.ok(Math.abs(legLength_m(joints)! - (Math.hypot(0.4, 0.1) + 0.5)) < 1e-12);
+  assert.equal(legLength_m(joints.slice(0, 5)), null);
+});
+
 test('only a constraint whose place is in the recipe can be dragged', () => {
   const ops = [op({do: 'cut@1'}), op({do: 'constrain@1', adapt: true, constraint: {
     type: 'Distance', name: 'rail', segment: 'leftHand', position_m: [1, 1, 1], stop_s: 2}})];
-  assert.deepEqual(steps(constraintChange(found('rail'), [0, 0.1, -0.0501], ops), ops),
+  assert.deepEqual(steps(constraintChange(found('rail'), [0, 0.1, -0.0501], ops, same), ops),
     [{replace: 1, op: {do: 'constrain@1', adapt: true, constraint: {type: 'Distance',
       name: 'rail', segment: 'leftHand', position_m: [1, 1.1, 0.95], stop_s: 2}}}]);
-  assert.equal(constraintChange(found('found leftFoot flat 1'), [0, 0, 0], ops), null);
+  assert.equal(constraintChange(found('found leftFoot flat 1'), [0, 0, 0], ops, same), null);
   // It was removed meanwhile.
-  assert.equal(constraintChange(found('rail'), [0, 1, 0], ops)!([]), null);
+  assert.equal(constraintChange(found('rail'), [0, 1, 0], ops, same)!([]), null);
+  // An avatar with legs of half the length.
+  const onAvatar = [...ops, op({do: 'retarget@1', avatar: 'a'})];
+  const moved = (until: number | null) => steps(constraintChange(found('rail'), [0, 0.1, 0], ops,
+    {until, scale: 2}), onAvatar)![0];
+  const movedTo = (y: number) => ({replace: 1, op: {...ops[1].keys, constraint: {
+    type: 'Distance', name: 'rail', segment: 'leftHand', position_m: [1, y, 1], stop_s: 2}}});
+  assert.deepEqual(moved(null), movedTo(1.2));
+  assert.deepEqual(moved(2), movedTo(1.1));
 });
 
 test('constraints are active between their times', () => {
@@ -222,7 +245,8 @@ test('constraints are active between their times', () => {
 
 test('a change goes to the operation that acts last before the shown motion', () => {
   const ops = [op({do: 'contacts@1'}), op({do: 'event@1'}), op({do: 'retarget@1'})];
-  assert.equal(opToChange(ops, null, 'contacts@1'), 0);
+  assert.equal(opToChange(ops, 2, 'contacts@1'), 0);
+  assert.equal(opToChange(ops, 3, 'contacts@1'), null);
   assert.equal(opToChange(ops, 0, 'contacts@1'), null);
-  assert.equal(opToChange([op({do: 'contacts@1'}, true)], null, 'contacts@1'), null);
+  assert.equal(opToChange([op({do: 'contacts@1'}, true)], 1, 'contacts@1'), null);
 });

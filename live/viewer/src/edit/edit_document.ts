@@ -19,8 +19,8 @@ export interface DocumentListener {
   onProgress(progress: ProgressWords): void;
   /** A new result. */
   onRendered(rendered: RenderedWords): void;
-  /** The answer to preview() or show(). */
-  onPreview(preview: PreviewWords): void;
+  /** The answer to preview(), or to show() if not `isChanged`. */
+  onPreview(preview: PreviewWords, isChanged: boolean): void;
   /** A request was refused. */
   onRefused(text: string): void;
 }
@@ -29,10 +29,15 @@ type Answer = EditWords | EditErrorWords;
 type Send = (words: EditPageWords) => boolean;
 /** Which part a preview renders, from the steps of its change. */
 export type ChooseParts = (steps: readonly OpStep[]) => PreviewParts;
-type Wish = {patch: Change; parts: ChooseParts};
+/** `isChange`: of preview(), not of show(). */
+type Wish = {patch: Change; parts: ChooseParts; isChange: boolean};
 
 const NOT_CONNECTED: EditErrorWords = {type: 'error', text:
   'marey does not answer. The change was not made: is the program still running?'};
+
+const LOST: EditErrorWords = {type: 'error', text:
+  'The connection was lost before marey answered. Check in the list of operations whether the ' +
+  'last change was made.'};
 
 export class EditDocument {
   revision: RevisionWords | null = null;
@@ -41,6 +46,8 @@ export class EditDocument {
   private readonly waiting = new Map<string, (answer: Answer) => void>();
   private readonly newRevision: (() => void)[] = [];
   private count = 0;
+  /** Number of lost connections. */
+  private lost = 0;
   private changes: Promise<unknown> = Promise.resolve();
   /** The next preview; older ones that were not sent are replaced. */
   private wish: Wish | null = null;
@@ -73,7 +80,10 @@ export class EditDocument {
   lose(): void {
     const open = [...this.waiting.values()];
     this.waiting.clear();
-    for (const answer of open) answer(NOT_CONNECTED);
+    for (const answer of open) answer(LOST);
+    // The next connection begins with the newest revision, whatever its number is.
+    this.lost += 1;
+    for (const arrived of this.newRevision.splice(0)) arrived();
   }
 
   /** Changes the recipe, after the changes that were requested before. Returns whether it was
@@ -99,18 +109,17 @@ export class EditDocument {
   /** Renders a change without making it, as in a drag. While an answer is awaited, only the
    *  newest request is kept. */
   preview(patch: Change, parts: ChooseParts = () => ({})): void {
-    this.wish = {patch, parts};
-    if (!this.isPreviewing) void this.sendWish();
+    this.want({patch, parts, isChange: true});
   }
 
   /** Renders the unchanged recipe, such as the motion as operation `until` receives it. */
   show(parts: PreviewParts): void {
-    this.preview(() => [], () => parts);
+    this.want({patch: () => [], parts: () => parts, isChange: false});
   }
 
-  /** Forgets a preview that was not sent. */
+  /** Forgets a preview() that was not sent. */
   dropPreview(): void {
-    this.wish = null;
+    if (this.wish?.isChange) this.wish = null;
   }
 
   /** Searches for loops. null: refused; the listener received the reason. */
@@ -143,7 +152,8 @@ export class EditDocument {
   private async request(words: EditPageWords & {id: string}): Promise<boolean> {
     const answer = await this.ask(words);
     if (answer.type !== 'accepted') return false;
-    while ((this.revision?.revision ?? 0) < answer.revision) {
+    const {lost} = this;
+    while ((this.revision?.revision ?? 0) < answer.revision && lost === this.lost) {
       await new Promise<void>((arrived) => { this.newRevision.push(arrived); });
     }
     return true;
@@ -158,10 +168,15 @@ export class EditDocument {
     });
     if (answer.type === 'error') this.listener.onRefused(answer.text);
     else if (answer.type === 'stale') {
-      this.listener.onRefused('Another page changed the recipe at the same time; this change ' +
-        'was not made. Repeat it.');
+      this.listener.onRefused('Another page or program changed the recipe at the same time; ' +
+        'this change was not made. Repeat it.');
     }
     return answer;
+  }
+
+  private want(wish: Wish): void {
+    this.wish = wish;
+    if (!this.isPreviewing) void this.sendWish();
   }
 
   private async sendWish(): Promise<void> {
@@ -169,14 +184,14 @@ export class EditDocument {
     while (this.wish) {
       await this.changes;
       if (!this.wish) break;
-      const {patch, parts} = this.wish;
+      const {patch, parts, isChange} = this.wish;
       this.wish = null;
       const ops_patch = patch(this.ops);
       if (!ops_patch) continue;
       const answer = await this.ask(ops_patch.length > 0
         ? {type: 'preview', ops_patch, ...this.base(), ...parts(ops_patch)}
         : {type: 'render', ...this.base(), ...parts([])});
-      if (answer.type === 'preview') this.listener.onPreview(answer);
+      if (answer.type === 'preview') this.listener.onPreview(answer, isChange);
     }
     this.isPreviewing = false;
   }
@@ -202,6 +217,7 @@ export class EditDocument {
 }
 
 /** Returns the operation without its version: "cut" for "cut@1". */
-export function opName(op: Pick<OpKeys, 'do'>): string {
-  return op.do.split('@')[0];
+export function opName({do: name}: Pick<OpKeys, 'do'>): string {
+  const end = name.indexOf('@');
+  return end < 0 ? name : name.slice(0, end);
 }

@@ -17,7 +17,6 @@ export interface MotionPart {block: MotionBlock; span: Span}
 export class EditReel {
   readonly playback = new Playback();
   private instant = new Instant([]);
-  private skeletons: readonly SkeletonWords[] = [];
   private whole: MotionPart | null = null;
   private preview: MotionPart | null = null;
   private loading = new AbortController();
@@ -29,25 +28,25 @@ export class EditReel {
 
   /** Sets the bodies. Removes all frames. */
   setSkeletons(skeletons: readonly SkeletonWords[]): void {
-    this.skeletons = skeletons;
     this.instant = new Instant(skeletons);
     this.whole = null;
     this.preview = null;
   }
 
-  /** Fetches the frames of an output, without using them yet. null: frames that were requested
-   *  later replace them. Throws an Error with the cause. */
-  async fetch({block, span}: OutputWords): Promise<MotionPart | null> {
+  /** Fetches the frames of an output of these bodies, without using them yet. null: frames that
+   *  were requested later replace them, or `failed` received the cause. */
+  async fetch({block, span}: OutputWords, skeletons: readonly SkeletonWords[],
+    failed: (problem: string) => void): Promise<MotionPart | null> {
     this.loading.abort();
     this.loading = new AbortController();
     const {signal} = this.loading;
     try {
       const bytes = await fetched(block, signal);
       return signal.aborted ? null
-        : {block: new MotionBlock(bytes, new SceneFrame(this.skeletons)), span};
+        : {block: new MotionBlock(bytes, new SceneFrame(skeletons)), span};
     } catch (problem) {
-      if (signal.aborted) return null;
-      throw problem;
+      if (!signal.aborted) failed(String(problem));
+      return null;
     }
   }
 
@@ -66,6 +65,14 @@ export class EditReel {
   /** Shows these frames where they exist; null: only those of setWhole(). */
   setPreview(part: MotionPart | null): void {
     this.preview = part;
+  }
+
+  /** Forgets the preview. A change that was made is shown with it, around the shown instant,
+   *  until its result arrives. Returns whether there was one. */
+  dropPreview(): boolean {
+    const isDropped = this.preview !== null;
+    this.preview = null;
+    return isDropped;
   }
 
   /** True if the preview has the shown frame, or there is none. */

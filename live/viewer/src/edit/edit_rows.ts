@@ -3,7 +3,7 @@
 
 // Rows and curves of the edited motion for the timeline.
 
-import type {EditGraphWords, OutputWords} from '../protocol/edit_protocol';
+import type {AnnotationWords, EditGraphWords, OutputWords} from '../protocol/edit_protocol';
 import {SOURCES} from '../protocol/protocol';
 import type {GraphData} from '../timeline/graph';
 import type {Strip, TimelineData} from '../timeline/timeline_paint';
@@ -11,6 +11,7 @@ import {ROW_PX, sourceStrip} from '../timeline/timeline_paint';
 import type {Curve, Run} from '../timeline/timeline_rows';
 import {BEARS, RunRows} from '../timeline/timeline_rows';
 
+const rowsOf = new WeakMap<readonly AnnotationWords[], AnnotationWords[][]>();
 /** Frames that an operation has changed are drawn in the colour of repaired ones. */
 const CHANGED = 1;
 
@@ -73,10 +74,31 @@ function constraintStrip({constraints, rate_hz, frames}: OutputWords): Strip {
     }};
 }
 
+/** Annotations of the same text share a row. Computed once per result. */
+function byText(annotations: readonly AnnotationWords[]): AnnotationWords[][] {
+  const known = rowsOf.get(annotations);
+  if (known) return known;
+  const rows = new Map<string, AnnotationWords[]>();
+  for (const note of annotations) {
+    const same = rows.get(note.text);
+    if (same) same.push(note);
+    else rows.set(note.text, [note]);
+  }
+  const made = [...rows.values()];
+  rowsOf.set(annotations, made);
+  return made;
+}
+
+/** Returns the annotations in a row of the timeline. */
+export function annotationsInRow(annotations: readonly AnnotationWords[],
+  row: number): readonly AnnotationWords[] {
+  return byText(annotations)[row] ?? [];
+}
+
 function annotationStrip({annotations, rate_hz}: OutputWords): Strip {
-  const texts = [...new Set(annotations.map(({text}) => text))];
-  const rows = new RunRows(texts, texts.map((text) => annotations.filter((one) =>
-    one.text === text).map(({start_s, end_s}): Run =>
+  const sorted = byText(annotations);
+  const texts = sorted.map(([{text}]) => text);
+  const rows = new RunRows(texts, sorted.map((same) => same.map(({start_s, end_s}): Run =>
     [start_s * rate_hz, end_s * rate_hz, CHANGED])));
   const noted = {colour: 'good', top: 3, height: ROW_PX - 8, least: 3};
   return {kind: 'annotations', rows, base: 'seen-none', looks: [noted, noted],

@@ -35,6 +35,12 @@ export function insertIndex(ops: readonly OpWords[], until: number | null): numb
   return end > 0 && ops[end - 1]?.do.startsWith('retarget@') ? end - 1 : end;
 }
 
+/** As insertIndex(), for an operation in places of the shown body. After a retarget, these are
+ *  the avatar's, which has other lengths, so that the operation comes after it. */
+export function placeIndex(ops: readonly OpWords[], until: number | null): number {
+  return until ?? ops.length;
+}
+
 /** Returns the number of operations up to index `until` after a change. Operations inserted at
  *  `until` are included. */
 export function untilAfter(steps: readonly OpStep[], until: number): number {

@@ -3,7 +3,6 @@
 
 // Parts that changes of the recipe by the tools in the scene have in common.
 
-import {insertIndex} from '../edit/edit_view';
 import type {OpKeys, OpWords} from '../protocol/edit_protocol';
 import type {Vector} from '../protocol/protocol';
 
@@ -31,12 +30,12 @@ export function lastActing(ops: readonly OpWords[], end: number): number {
   return -1;
 }
 
-/** Returns the index of the operation whose result an inserted one receives, if it is one of
- *  `name` that fits; null otherwise. A gesture changes such an operation, so that recipes
- *  stay short. */
-export function opToChange(ops: readonly OpWords[], until: number | null, name: string,
+/** Returns the index of the operation whose result one that is inserted at `end` receives, if
+ *  it is one of `name` that fits; null otherwise. A gesture changes such an operation, so that
+ *  recipes stay short. */
+export function opToChange(ops: readonly OpWords[], end: number, name: string,
   fits: (keys: OpKeys) => boolean = () => true): number | null {
-  const i = lastActing(ops, insertIndex(ops, until));
+  const i = lastActing(ops, end);
   return i >= 0 && ops[i].do === name && fits(ops[i].keys) ? i : null;
 }
 

@@ -4,7 +4,7 @@
 // Changes of the recipe by the tool for the path.
 
 import type {Change} from '../edit/edit_document';
-import {insertIndex} from '../edit/edit_view';
+import {insertIndex, placeIndex} from '../edit/edit_view';
 import {opToChange, rounded} from './op_to_change';
 import type {OpKeys, OpValue, OpWords} from '../protocol/edit_protocol';
 
@@ -30,7 +30,7 @@ export function pathOpWithPoints(ops: readonly OpWords[], until: number | null,
   const isApplied = selected !== null && selected < (until ?? ops.length) &&
     !(ops[selected]?.off ?? true);
   if (isApplied && pointsOf(ops[selected].keys)) return selected;
-  return opToChange(ops, until, 'path@1', (keys) => pointsOf(keys) !== null);
+  return opToChange(ops, placeIndex(ops, until), 'path@1', (keys) => pointsOf(keys) !== null);
 }
 
 /** Leads the motion along these points. */
@@ -39,7 +39,7 @@ export function pointsChange(points: readonly Place[], until: number | null,
   const points_xz_m = points.map(([x, z]): Place => [rounded(x), rounded(z)]);
   return (ops) => {
     const i = pathOpWithPoints(ops, until, selected);
-    if (i === null) return [{insert: insertIndex(ops, until), op: {do: 'path@1', points_xz_m}}];
+    if (i === null) return [{insert: placeIndex(ops, until), op: {do: 'path@1', points_xz_m}}];
     return [{replace: i, op: {...ops[i].keys, points_xz_m}}];
   };
 }
@@ -55,7 +55,8 @@ function shapeOf(keys: OpKeys): PathShape {
 }
 
 function shapedOp(ops: readonly OpWords[], until: number | null): number | null {
-  return opToChange(ops, until, 'path@1', (keys) => !('points_xz_m' in keys));
+  return opToChange(ops, insertIndex(ops, until), 'path@1',
+    (keys) => !('points_xz_m' in keys));
 }
 
 /** Returns the parameters of the operation that shapeChange() changes. */

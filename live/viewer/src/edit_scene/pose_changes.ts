@@ -4,7 +4,7 @@
 // Changes of the recipe by handles of the body: keys of a pose and constraints.
 
 import type {Change} from '../edit/edit_document';
-import {insertIndex} from '../edit/edit_view';
+import {placeIndex} from '../edit/edit_view';
 import {opToChange, rounded, roundedVector} from './op_to_change';
 import type {EditConstraintWords, OpKeys, OpValue, OpWords} from '../protocol/edit_protocol';
 import type {Vector} from '../protocol/protocol';
@@ -48,9 +48,10 @@ function isAt(keys: OpKeys, {frame, rate_hz}: Instant): boolean {
  *  before is changed, and removed if it moves nothing any more. */
 export function poseChange(bone: string, moved_m: Vector, at: Instant): Change {
   return (ops) => {
-    const i = opToChange(ops, at.until, 'pose@1', (keys) => keys.bone === bone && isAt(keys, at));
+    const end = placeIndex(ops, at.until);
+    const i = opToChange(ops, end, 'pose@1', (keys) => keys.bone === bone && isAt(keys, at));
     if (i === null) {
-      return [{insert: insertIndex(ops, at.until), op: {do: 'pose@1',
+      return [{insert: end, op: {do: 'pose@1',
         at_s: rounded(at.frame / at.rate_hz), bone, moved_m: roundedVector(moved_m),
         width_s: WIDTH_S}}];
     }
@@ -97,16 +98,24 @@ function windowAt({frame, rate_hz, frames}: Instant): {[key: string]: number} {
 /** Holds a joint at a place around an instant. `ids`: those of all constraints. */
 export function newConstraint(bone: string, position_m: Vector, at: Instant,
   ids: readonly string[]): Change {
-  return (ops) => [{insert: insertIndex(ops, at.until), op: {do: 'constrain@1',
+  return (ops) => [{insert: placeIndex(ops, at.until), op: {do: 'constrain@1',
     constraint: {type: 'Distance', name: newConstraintName(bone, ops, ids), segment: bone,
       position_m: roundedVector(position_m), ...windowAt(at)}, adapt: true}}];
 }
 
+/** Body of the shown motion. */
+export interface ShownBody {
+  /** As in EditView. */
+  until: number | null;
+  /** Length of the source's legs to the shown ones. */
+  scale: number;
+}
+
 /** Returns the change that moves a constraint of the shown motion by `moved_m`; null if its
  *  place is not in the recipe. Operations after its own may have moved it, so that only the
- *  difference counts. */
+ *  difference counts. A retarget after it has scaled it. */
 export function constraintChange(constraint: EditConstraintWords, moved_m: Vector,
-  ops: readonly OpWords[]): Change | null {
+  ops: readonly OpWords[], {until, scale}: ShownBody): Change | null {
   const own = (op: OpWords): boolean => {
     const inline = inlineConstraint(op);
     return inline?.name === constraint.id && isVector(inline.position_m);
@@ -116,7 +125,11 @@ export function constraintChange(constraint: EditConstraintWords, moved_m: Vecto
     const i = now.findIndex(own);
     const inline = i < 0 ? null : inlineConstraint(now[i]);
     if (!inline) return null;
-    const position_m = sum(vectorOf(inline.position_m), moved_m);
+    const isScaled = now.slice(i + 1, until ?? now.length).some(({do: name, off}) =>
+      !off && name === 'retarget@1');
+    const [x, y, z] = moved_m;
+    const k = isScaled ? scale : 1;
+    const position_m = sum(vectorOf(inline.position_m), [k * x, k * y, k * z]);
     return [{replace: i, op: {...now[i].keys, constraint: {...inline, position_m}}}];
   };
 }

@@ -6,8 +6,9 @@
 
 import type {Change} from '../edit/edit_document';
 import type {EditView} from '../edit/edit_view';
+import {legLength_m} from './leg_length';
 import {constraintChange, isActiveAt, newConstraint, poseChange} from './pose_changes';
-import type {Instant} from './pose_changes';
+import type {Instant, ShownBody} from './pose_changes';
 import type {EditConstraintWords} from '../protocol/edit_protocol';
 import type {ConstraintWords, DragPhase, SkeletonWords, Vector} from '../protocol/protocol';
 import {button, chooser, el, remember, remembered, setText} from '../base/elements';
@@ -15,7 +16,8 @@ import {boneWords, capitalized} from '../base/words';
 import type {Stage} from '../scene/stage';
 
 const BONES = ['leftHand', 'rightHand', 'leftFoot', 'rightFoot', 'hips'];
-/** The edited body in the scene. */
+/** The bodies of the scene. */
+const SOURCE = 0;
 const RESULT = 1;
 const MODES = [
   ['key', 'Key', 'A drag displaces the motion around the shown instant'],
@@ -46,6 +48,8 @@ export class PoseHandles {
   private readonly targets = new Map<string, Target>();
   private grip: Grip | null = null;
   private hidden = false;
+  /** As in ShownBody. */
+  private scale = 1;
 
   /** `seek` stops playing and shows a frame of the shown motion. */
   constructor(private readonly view: EditView, private readonly stage: Stage,
@@ -64,6 +68,9 @@ export class PoseHandles {
   /** Sets the skeletons of the scene, after Stage.setScene(). */
   setSkeletons(skeletons: readonly SkeletonWords[]): void {
     const joints = skeletons[RESULT]?.joints ?? [];
+    const [source_m, result_m] = [SOURCE, RESULT].map((i) =>
+      legLength_m(skeletons[i]?.joints ?? []));
+    this.scale = source_m && result_m ? source_m / result_m : 1;
     this.joints = BONES.map((bone) => ({bone, joint: joints.findIndex((one) => one.bone === bone)}))
       .filter(({joint}) => joint >= 0);
     this.update();
@@ -109,6 +116,14 @@ export class PoseHandles {
     this.update();
   }
 
+  /** Ends a drag without a change. */
+  giveUp(): void {
+    if (!this.grip) return;
+    this.grip = null;
+    this.view.cancel();
+    this.update();
+  }
+
   // --- Handles ---
 
   /** Returns whether other constraints are active than before. Allocates nothing. */
@@ -146,7 +161,7 @@ export class PoseHandles {
       if (!this.active[i] || !p_in_world) return;
       this.targets.set(id, {constraint});
       const movable = draggable &&
-        constraintChange(constraint, [0, 0, 0], this.view.document.ops) !== null;
+        constraintChange(constraint, [0, 0, 0], this.view.document.ops, this.body) !== null;
       goals.push({id, skeleton: RESULT, kind: kind === 'position' ? 'distance' : kind,
         active: movable, p_in_world: [...p_in_world], draggable: movable});
     });
@@ -165,6 +180,10 @@ export class PoseHandles {
   }
 
   // --- Changes ---
+
+  private get body(): ShownBody {
+    return {until: this.view.until, scale: this.scale};
+  }
 
   private instant(frame: number): Instant {
     const {output, until} = this.view;
@@ -188,7 +207,7 @@ export class PoseHandles {
 
   private changeOf(target: Target, moved_m: Vector, to_m: Vector, at: Instant): Change | null {
     if ('constraint' in target) {
-      return constraintChange(target.constraint, moved_m, this.view.document.ops);
+      return constraintChange(target.constraint, moved_m, this.view.document.ops, this.body);
     }
     if (this.mode === 'key') return poseChange(target.bone, moved_m, at);
     return newConstraint(target.bone, to_m, at, this.constraints.map(({id}) => id));

@@ -12,7 +12,7 @@ import {
   annotationTime, changeOf, duration_s, isAnnotating, lastOp, nextOp, offset_s, readInstant,
   spanPlace, startOfCut, tableAt, withInstant, withTable,
 } from './op_times';
-import type {AnnotationWords, OpKeys, OpStep, OpWords, OutputWords}
+import type {AnnotationWords, OpKeys, OpStep, OpValue, OpWords, OutputWords}
   from '../protocol/edit_protocol';
 
 /** Changes below this are none: recipes have milliseconds. */
@@ -215,12 +215,29 @@ export function moveConstraintTime(view: ShownView, id: string, start_s: number 
 
 // --- Annotations ---
 
+const notesOf = new WeakMap<readonly OpWords[], Map<OpValue, number[]>>();
+
+/** Indices of the tags and events that are on, by their texts. Computed once per recipe. */
+function notesByText(ops: readonly OpWords[]): Map<OpValue, number[]> {
+  const known = notesOf.get(ops);
+  if (known) return known;
+  const made = new Map<OpValue, number[]>();
+  ops.forEach((op, i) => {
+    if (op.off || !['tag', 'event'].includes(opName(op))) return;
+    const same = made.get(op.keys.text);
+    if (same) same.push(i);
+    else made.set(op.keys.text, [i]);
+  });
+  notesOf.set(ops, made);
+  return made;
+}
+
 /** Index of the tag or event that an annotation comes from. -1: of none, or it is not clear
  *  of which one. */
 export function opOfAnnotation(shown: Shown, note: AnnotationWords): number {
   const {ops, until, output} = shown;
-  const same = ops.map((_, i) => i).filter((i) => i < insertIndex(ops, until) && !ops[i].off &&
-    ['tag', 'event'].includes(opName(ops[i])) && ops[i].keys.text === note.text &&
+  const end = insertIndex(ops, until);
+  const same = (notesByText(ops).get(note.text) ?? []).filter((i) => i < end &&
     offset_s(shown, i) !== null);
   let best = -1;
   let least_s = 1 / output.rate_hz + 2 * LEAST_S;

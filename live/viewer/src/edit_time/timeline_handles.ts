@@ -4,6 +4,7 @@
 // Handles on the timeline: ends of the motion, instants of the selected operation, edges of
 // contacts and constraints, annotations. Knows no elements of the page.
 
+import {annotationsInRow} from '../edit/edit_rows';
 import {moveContactEdge} from './contact_patches';
 import type {Change} from '../edit/edit_document';
 import {opHandles} from './op_handles';
@@ -52,22 +53,35 @@ export function handle(shown: Shown, made: Made): Handle {
     previews: true, ...made};
 }
 
-/** The handles on the axis, or in one row. `selected`: index of the selected operation. */
+/** The handles on the axis, or in one row. `selected`: index of the selected operation.
+ *  `frames`: on the axis, annotations outside of these are left out, of which there may be
+ *  thousands. */
 export function handlesIn(view: ShownView, selected: number | null, where: HandlePlace,
-  row: number): Handle[] {
+  row: number, [low, high]: readonly [number, number] = [-Infinity, Infinity]): Handle[] {
   const shown = shownBy(view);
   if (!shown || shown.output.frames < 2) return [];
   const {contacts, constraints, annotations} = shown.output;
   if (where !== 'axis') {
+    if (where === 'annotations') {
+      return annotationsInRow(annotations, row).flatMap((note) =>
+        annotationHandles(view, shown, note, row));
+    }
     if (row >= shown.output[where].length) return [];
     if (where === 'contacts') return contactHandles(view, shown, contacts[row], row);
-    if (where === 'constraints') return constraintHandles(view, shown, constraints[row], row);
-    return annotationHandles(view, shown, annotations[row], row);
+    return constraintHandles(view, shown, constraints[row], row);
   }
+  const marks = annotations.filter(({start_s, end_s}) => start_s === end_s &&
+    start_s * shown.output.rate_hz >= low && start_s * shown.output.rate_hz <= high);
+  return [...axisHandles(view, selected), ...marks.flatMap((note) =>
+    annotationHandles(view, shown, note, 0).map((mark) => ({...mark, where})))];
+}
+
+/** The handles on the axis that are drawn: without those of annotations. */
+export function axisHandles(view: ShownView, selected: number | null): Handle[] {
+  const shown = shownBy(view);
+  if (!shown || shown.output.frames < 2) return [];
   return [...trimHandles(view, shown),
-    ...(selected === null ? [] : opHandles(view, shown, selected)),
-    ...annotations.flatMap((note) => (note.start_s === note.end_s
-      ? annotationHandles(view, shown, note, 0).map((mark) => ({...mark, where})) : []))];
+    ...(selected === null ? [] : opHandles(view, shown, selected))];
 }
 
 /** "start of left heel 1.283 s (−27 ms)" */

@@ -12,7 +12,7 @@ import {AXIS_PX} from '../timeline/timeline_paint';
 import type {EditView} from '../edit/edit_view';
 import {SpanMenu} from './span_menu';
 import type {Handle, HandlePlace} from './timeline_handles';
-import {handlesIn, handleWords} from './timeline_handles';
+import {axisHandles, handlesIn, handleWords} from './timeline_handles';
 import {SPAN_PX, ToolsPainter} from './timeline_tools_paint';
 
 const KINDS: readonly string[] = ['contacts', 'constraints', 'annotations'];
@@ -91,8 +91,11 @@ export class TimelineTools implements TimelineExtension {
     const {layout, x_px, reach_px} = place;
     let best: Handle | null = null;
     let least = reach_px;
+    const reach = reach_px / Math.max(layout.x(1) - layout.x(0), 1e-6) + 1;
+    const frames = [place.frame - reach, place.frame + reach] as const;
     for (const {where, row, away_px} of rowsAt(place)) {
-      for (const handle of handlesIn(this.view, this.selection.selected, where, row)) {
+      const {selected} = this.selection;
+      for (const handle of handlesIn(this.view, selected, where, row, frames)) {
         const x = layout.x(handle.frame + handle.shift);
         if (handle.side === 'span' || x < layout.left_px - 1 ||
           x > layout.left_px + layout.width_px + 1) continue;
@@ -106,7 +109,7 @@ export class TimelineTools implements TimelineExtension {
   /** The selected operation's span, whose bar is in the upper part of the axis. */
   private spanAt({area, y_px, frame}: TimelinePlace): Handle | null {
     if (area !== 'axis' || y_px > SPAN_PX) return null;
-    return handlesIn(this.view, this.selection.selected, 'axis', 0).find((handle) =>
+    return axisHandles(this.view, this.selection.selected).find((handle) =>
       handle.side === 'span' && handle.low < handle.high && frame >= handle.frame &&
       frame <= handle.frame + (handle.frames ?? 0)) ?? null;
   }
@@ -147,7 +150,7 @@ export class TimelineTools implements TimelineExtension {
 
   /** Trims to the shown instant. */
   private trimHere(side: 'start' | 'end'): void {
-    const handle = handlesIn(this.view, null, 'axis', 0).find((one) =>
+    const handle = axisHandles(this.view, null).find((one) =>
       one.role === 'trim' && one.side === side);
     if (!handle) return;
     const now = Math.min(Math.max(Math.round(this.view.time), handle.low), handle.high);

@@ -9,7 +9,7 @@ import type {EditView} from '../edit/edit_view';
 import {spansOfOp} from './op_handles';
 import {shownBy} from './op_times';
 import type {Handle} from './timeline_handles';
-import {handlesIn, trimmedFrames} from './timeline_handles';
+import {axisHandles, trimmedFrames} from './timeline_handles';
 import type {Brush} from './timeline_tools';
 
 /** Height of the bar of the selected operation's span, in the axis. */
@@ -37,7 +37,7 @@ export class ToolsPainter {
     context.clip();
     this.cutOff(dragged);
     if (selected !== null) this.selectedSpans(selected, dragged);
-    for (const handle of handlesIn(this.view, selected, 'axis', 0)) {
+    for (const handle of axisHandles(this.view, selected)) {
       const isDragged = dragged?.handle.name === handle.name && dragged.handle.where === 'axis';
       const at = isDragged ? dragged.now : handle.frame;
       const isBright = isDragged || near?.name === handle.name;

@@ -7,29 +7,31 @@
 import {el} from '../base/elements';
 import {Theme} from '../base/theme';
 import {giveFocusBack, Help, listenToKeys} from '../panels/help';
-import {Panels, Section} from '../panels/panels';
+import {Panels} from '../panels/panels';
 import {viewKeys} from '../panels/view_keys';
 import {ViewPanel} from '../panels/view_panel';
 import type {Connection, Listener} from '../protocol/connection';
 import {EDIT_TYPES} from '../protocol/edit_protocol';
 import type {
-  EditErrorWords, EditWords, OutputWords, PreviewWords, ProgressWords,
-  RenderedParts, RenderedWords, RevisionWords,
+  EditErrorWords, EditWords, OutputWords, PreviewWords, ProgressWords, RenderedParts,
+  RenderedWords, RevisionWords,
 } from '../protocol/edit_protocol';
-import type {DragPhase, SceneWords, ServerWords, SkeletonWords, Vector} from '../protocol/protocol';
+import type {DragPhase, SceneWords, ServerWords, Vector} from '../protocol/protocol';
 import {AvatarView} from '../scene/avatar_view';
 import {drawingOfBrowser} from '../scene/renderer';
 import {Stage} from '../scene/stage';
 import type {StageListener} from '../scene/stage';
 import {Timeline} from '../timeline/timeline';
 import {Transport} from '../timeline/transport';
+import {bodiesOf, sameBodies} from '../edit/edit_bodies';
+import type {Bodies} from '../edit/edit_bodies';
 import {EditBar} from '../edit/edit_bar';
 import {EditDocument} from '../edit/edit_document';
 import type {Change, DocumentListener} from '../edit/edit_document';
 import {EDIT_KEYS, listenToUndo} from '../edit/edit_keys';
 import {EditReel} from '../edit/edit_reel';
-import type {MotionPart} from '../edit/edit_reel';
 import {editTimeline} from '../edit/edit_rows';
+import {sceneSections} from '../edit/edit_sections';
 import {previewParts, untilAfter} from '../edit/edit_view';
 import type {EditView} from '../edit/edit_view';
 import {OpsPanel} from '../edit/ops_panel';
@@ -69,12 +71,15 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
   private readonly ghost: Ghost;
   private readonly loops: LoopsPanel;
   private scene: SceneWords | null = null;
-  private skeletons: readonly SkeletonWords[] = [];
-  /** Contains `output`. */
+  private skeletons: Bodies = [];
+  /** The message that contains `output`. */
   private parts: RenderedParts | null = null;
   private shownPreview: Preview | null = null;
   /** A gesture is in progress, so that the motion under it stays. */
   private isHeld = false;
+  /** The result could not be computed yet, so that the motion before the failed operation is
+   *  shown. */
+  private isFallback = false;
   /** Called when the motion that lookAt() requested is shown. */
   private whenShown: (() => void) | null = null;
   private stale = true;
@@ -108,24 +113,15 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     this.result = new ResultPanel({choose: (output) => this.choose(output),
       exportResults: () => this.document.exportResults()});
     this.panels = new Panels(byId('panels'), () => {});
-    this.panels.add(this.ops.section, this.result.section, ...this.sceneSections());
+    this.panels.add(this.ops.section, this.result.section, ...sceneSections(
+      {handles: this.handles, path: this.path, loops: this.loops, ghost: this.ghost},
+      new ViewPanel(this.stage, this.theme, () => this.renew())));
     this.bar = new EditBar(byId('bar'), this.stage.element, this.theme, {
       undo: () => void this.document.undo(), redo: () => void this.document.redo(),
       showResult: () => this.lookAt(null),
     }, [this.help.button, this.panels.button]);
     this.listenToKeys();
     giveFocusBack();
-  }
-
-  /** Sections of the tools in the scene. */
-  private sceneSections(): Section[] {
-    const body = new Section('joints', 'Drag the body', true);
-    body.body.append(this.handles.element);
-    const path = new Section('path', 'Path', false);
-    path.body.append(this.path.element);
-    const view = new ViewPanel(this.stage, this.theme, () => this.renew());
-    view.section.body.append(this.ghost.element);
-    return [body, path, this.loops.section, view.section];
   }
 
   // --- From marey ---
@@ -137,9 +133,8 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     }
   }
 
-  binary(_buffer: ArrayBuffer): void {
-    // Frames of the edit are in blocks.
-  }
+  /** Frames of the edit are in blocks. */
+  binary(_buffer: ArrayBuffer): void {}
 
   state(state: 'open' | 'lost'): void {
     this.bar.setConnected(state === 'open');
@@ -157,22 +152,31 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     this.ops.setRevision(revision);
     this.bar.setBehind(this.document.isBehind);
     this.updateTools();
+    const {isFallback} = this;
     if (this.until !== null) this.lookAt(Math.min(this.until, revision.ops.length));
+    this.isFallback = isFallback;
   }
 
   onProgress(progress: ProgressWords): void {
     this.bar.setProgress(progress);
     this.ops.setProgress(progress);
+    if (progress.state !== 'failed') return;
+    if (!this.shownPreview && this.reel.dropPreview()) this.renew();
+    if (!this.isFallback && (this.output || this.until !== null)) return;
+    this.lookAt(progress.op ?? 0);
+    this.isFallback = true;
   }
 
   onRendered(rendered: RenderedWords): void {
     this.bar.setBehind(this.document.isBehind);
-    if (this.until === null && !this.isHeld) void this.take(rendered);
+    if (this.isFallback && !this.isHeld) this.lookAt(null);
+    else if (this.until === null && !this.isHeld) void this.take(rendered);
   }
 
-  onPreview(preview: PreviewWords): void {
-    if (this.shownPreview) void this.takePreview(preview);
-    else if (this.until !== null) void this.take(preview);
+  onPreview(preview: PreviewWords, isChanged: boolean): void {
+    if (isChanged) {
+      if (this.shownPreview) void this.takePreview(preview);
+    } else if (this.until !== null && !this.isHeld) void this.take(preview);
   }
 
   onRefused(text: string): void {
@@ -185,8 +189,8 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
   }
 
   /** Sets the bodies that frames belong to. */
-  private useSkeletons(skeletons: readonly SkeletonWords[]): void {
-    if (skeletons === this.skeletons) return;
+  private useSkeletons(skeletons: Bodies): void {
+    if (sameBodies(skeletons, this.skeletons)) return;
     this.skeletons = skeletons;
     this.reel.setSkeletons(skeletons);
     this.stage.setScene({skeletons: [...skeletons], cameras: [], points: null,
@@ -194,23 +198,17 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     this.handles.setSkeletons(skeletons);
   }
 
-  private skeletonsOf(parts: RenderedParts): readonly SkeletonWords[] | null {
-    const own = (parts as PreviewWords).skeletons;
-    if (own) return own;
-    return this.scene && (parts as RenderedWords).type === 'rendered' &&
-      parts.scene !== this.scene.revision ? null : this.scene?.skeletons ?? null;
-  }
-
   /** Shows a motion with its figures. */
   private async take(parts: RenderedParts): Promise<void> {
-    const skeletons = this.skeletonsOf(parts);
-    if (!skeletons) return; // They belong to an older scene; the next result follows.
+    const skeletons = bodiesOf(parts, this.scene);
+    if (!skeletons) return; // Its scene is replaced; the next result follows.
     this.outputIndex = Math.min(this.outputIndex, parts.outputs.length - 1);
     const output = parts.outputs[this.outputIndex];
     if (!output) return;
+    const frames = await this.reel.fetch(output, skeletons, this.fetchFailed);
+    // During a gesture, the motion that it began on stays.
+    if (!frames || this.isHeld || parts.until !== this.until) return;
     this.useSkeletons(skeletons);
-    const frames = await this.fetch(output);
-    if (!frames) return;
     this.parts = parts;
     this.output = output;
     this.shownPreview = null;
@@ -228,12 +226,12 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
   }
 
   private async takePreview(parts: PreviewWords): Promise<void> {
-    const skeletons = this.skeletonsOf(parts);
+    const skeletons = bodiesOf(parts, this.scene);
     const output = parts.outputs[Math.min(this.outputIndex, parts.outputs.length - 1)];
     if (!skeletons || !output) return;
-    this.useSkeletons(skeletons);
-    const frames = await this.fetch(output);
+    const frames = await this.reel.fetch(output, skeletons, this.fetchFailed);
     if (!frames || !this.shownPreview) return;
+    this.useSkeletons(skeletons);
     this.reel.setPreview(frames);
     this.ops.setRendered(parts);
     if (frames.block.frames === output.frames) {
@@ -245,18 +243,10 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     this.renew();
   }
 
-  /** Returns the frames of an output; null if newer ones are awaited, or it was removed. */
-  private async fetch(output: OutputWords): Promise<MotionPart | null> {
-    try {
-      return await this.reel.fetch(output);
-    } catch (problem) {
-      // An old block is removed when a newer result is ready.
-      if (!this.document.isBehind) {
-        this.trouble(`The motion cannot be shown: ${String(problem)}`);
-      }
-      return null;
-    }
-  }
+  private readonly fetchFailed = (problem: string): void => {
+    // An old block is removed when a newer result is ready.
+    if (!this.document.isBehind) this.trouble(`The motion cannot be shown: ${problem}`);
+  };
 
   // --- For tools ---
 
@@ -272,10 +262,10 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
   }
 
   async commit(change: Change): Promise<boolean> {
-    let after = this.until;
+    let after: number | null = null;
     const done = this.document.change((ops) => {
       const steps = change(ops);
-      if (steps && this.until !== null) after = untilAfter(steps, this.until);
+      if (steps && this.until !== null && !this.isFallback) after = untilAfter(steps, this.until);
       return steps;
     });
     this.document.dropPreview();
@@ -284,7 +274,7 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     // The revision's message comes before its answer, and shows the motion until here.
     const isDone = await done;
     if (!isDone) this.cancel();
-    else if (after !== this.until) this.lookAt(after);
+    else if (after !== null && after !== this.until) this.lookAt(after);
     return isDone;
   }
 
@@ -293,17 +283,20 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     this.shownPreview = null;
     this.document.dropPreview();
     this.reel.setPreview(null);
-    const {rendered} = this.document;
-    const base = this.until === null && rendered ? rendered : this.parts;
-    if (base && (base !== this.parts || this.skeletonsOf(base) !== this.skeletons)) {
-      void this.take(base);
-    }
+    const {rendered, revision} = this.document;
+    const {parts, until} = this;
+    const base = until === null && rendered ? rendered : parts;
+    if (until !== null && (parts?.until !== until || parts.revision !== revision?.revision)) {
+      this.document.show({until});
+    } else if (base && (base !== parts ||
+      !sameBodies(bodiesOf(base, this.scene) ?? [], this.skeletons))) void this.take(base);
     this.renew();
   }
 
   /** Shows the motion after this number of operations; null: the result. */
   lookAt(until: number | null): void {
     this.until = until;
+    this.isFallback = false;
     this.shownPreview = null;
     this.whenShown = null;
     this.bar.setLook(until);
@@ -349,6 +342,7 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     const before = playback.time;
     playback.advance(seconds, false);
     if (playback.time !== before) this.stale = true;
+    if (playback.playing && !this.shownPreview && this.reel.dropPreview()) this.stale = true;
     if (playback.playing) this.stage.refresh();
     if (!this.stale) return;
     this.stale = false;
@@ -374,6 +368,10 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
 
   drag(id: string, p_in_world: Vector, phase: DragPhase): void {
     this.handles.drag(id, p_in_world, phase);
+  }
+
+  dropDrag(): void {
+    this.handles.giveUp();
   }
 
   private seek(frame: number): void {

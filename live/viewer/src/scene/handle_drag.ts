@@ -17,8 +17,10 @@ interface Grip {id: string; pointer: number; start: Vector; normal: Vector; off:
 export class HandleDrag {
   private grip: Grip | null = null;
 
+  /** `giveUp`: Escape ends a drag with it, instead of with the phase `end`. */
   constructor(private readonly renderer: Renderer, private readonly view: ConstraintView,
-    private readonly drag: (id: string, p_in_world: Vector, phase: DragPhase) => void) {
+    private readonly drag: (id: string, p_in_world: Vector, phase: DragPhase) => void,
+    giveUp?: (id: string) => void) {
     const {canvas} = renderer;
     // Before the orbit's own listeners.
     canvas.addEventListener('pointerdown', (event) => this.down(event), true);
@@ -28,11 +30,12 @@ export class HandleDrag {
         if (pointerId === this.grip?.pointer) this.letGo();
       });
     }
-    window.addEventListener('keydown', (event) => {
-      if (event.key !== 'Escape' || !this.grip) return;
-      event.stopPropagation();
-      this.giveUp(this.grip);
-    }, true);
+    if (giveUp) {
+      // Whichever element has the focus.
+      window.addEventListener('keydown', (event) => {
+        if (event.key === 'Escape' && this.grip) this.drop(event, giveUp);
+      }, true);
+    }
   }
 
   /** Id of the dragged handle. */
@@ -99,12 +102,13 @@ export class HandleDrag {
     this.renderer.invalidate();
   }
 
-  /** Ends a drag at the place where it began. */
-  private giveUp({id, pointer, start}: Grip): void {
-    const moved = this.view.handles.find(({words}) => words.id === id);
-    if (moved) this.view.move(moved, start);
-    this.letGo();
-    this.renderer.canvas.releasePointerCapture(pointer);
+  private drop(event: Event, giveUp: (id: string) => void): void {
+    event.stopImmediatePropagation();
+    const {id} = this.grip!;
+    this.grip = null;
+    this.view.held = null;
+    giveUp(id);
+    this.renderer.invalidate();
   }
 
   private letGo(): void {

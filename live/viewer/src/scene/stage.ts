@@ -37,6 +37,8 @@ export interface StageListener {
   /** Frames the whole scene again, instead of the bodies at this instant. */
   reset?(): void;
   drag?(id: string, p_in_world: Vector, phase: DragPhase): void;
+  /** A drag ended with Escape; without it, Escape does nothing. */
+  dropDrag?(id: string): void;
   trouble(text: string): void;
 }
 
@@ -95,7 +97,8 @@ export class Stage {
     scene.add(this.floor.object, this.rig.object, this.handles.object);
     this.element = el('div', {class: 'stage'}, canvas, this.labels.element);
     this.drags = listener.drag ? new HandleDrag(this.renderer, this.handles,
-      (id, p_in_world, phase) => listener.drag!(id, p_in_world, phase)) : null;
+      (id, p_in_world, phase) => listener.drag!(id, p_in_world, phase),
+      listener.dropDrag ? (id) => listener.dropDrag!(id) : undefined) : null;
     canvas.addEventListener('dblclick', () => this.reset());
     theme.onChange(() => this.paint());
     this.paint();
