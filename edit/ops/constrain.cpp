@@ -14,6 +14,8 @@
 #include "edit/find/found_constraints.h"
 #include "edit/state/adapt_state.h"
 #include "edit/state/check_op_keys.h"
+#include "edit/state/constraint_copies.h"
+#include "edit/state/full_time.h"
 #include "edit/state/resolve_moment.h"
 
 #include "core/base/in_quotes.h"
@@ -24,7 +26,6 @@ namespace {
 
 /// The ends of an interval must be fully active despite rounding. [frames]
 constexpr double kSlackFrames = 0.01;
-constexpr double kForever_s = 1e12;
 
 Status check_objects(const ConstrainOp& op) {
   if (op.objects.empty()) return Done{};
@@ -146,22 +147,6 @@ Status place_constraint(const ConstrainOp& op, const OpContext& context, EditSta
   return Done{};
 }
 
-/// Interval in which a constraint acts, fades included. [s]
-struct ActiveTime {
-  double from_s = 0.0;
-  double to_s = 0.0;
-};
-
-ActiveTime active_time(const Constraint& constraint) {
-  const Activation& when = constraint.activation;
-  return {when.start_s ? *when.start_s + when.start_duration_s : -kForever_s,
-          when.stop_s.value_or(kForever_s)};
-}
-
-bool overlap(const ActiveTime& a, const ActiveTime& b) {
-  return a.from_s <= b.to_s && b.from_s <= a.to_s;
-}
-
 bool is_support(const Constraint& constraint) {
   return std::holds_alternative<Support>(constraint.goal);
 }
@@ -172,17 +157,8 @@ bool is_changed_by_hand(const Constraint& found, const ConstraintSet& set) {
       set.constraints.begin(), set.constraints.end(), [&](const Constraint& other) {
         return !is_found(other.id) && other.point.segment == found.point.segment &&
                family_name(other.id) == family_name(found.id) &&
-               overlap(active_time(other), active_time(found));
+               overlap(full_time(other.activation), full_time(found.activation));
       });
-}
-
-/// Gives the id the next free number.
-void make_unique(const ConstraintSet& set, Constraint& constraint) {
-  const std::string family =
-      std::string(kFoundPrefix) + std::string(family_name(constraint.id));
-  for (int number = 2; set.find(constraint.id) != nullptr; ++number) {
-    constraint.id = family + " " + std::to_string(number);
-  }
 }
 
 /// Removes the constraints of this operation that contradict others.
@@ -214,23 +190,25 @@ Status replace_found(const ConstrainOp& op,
   const auto span = resolve_span(out, context.op.span);
   if (!span) return span.error();
   const double hz = out.motion.rate.hz;
-  const ActiveTime wanted{context.op.span.from ? span->first / hz : -kForever_s,
-                          context.op.span.to ? span->last / hz : kForever_s};
+  FullTime wanted = full_time({});
+  if (context.op.span.from) wanted.from_s = span->first / hz;
+  if (context.op.span.to) wanted.to_s = span->last / hz;
   const bool supports = *op.detect == DetectConstraints::kSupports;
   ConstraintSet& set = out.constraints;
   std::erase_if(set.constraints, [&](const Constraint& c) {
-    return is_found(c.id) && is_support(c) == supports && overlap(active_time(c), wanted);
+    return is_found(c.id) && is_support(c) == supports &&
+           overlap(full_time(c.activation), wanted);
   });
   std::set<std::string> added;
   int changed_by_hand = 0;
   for (Constraint& found :
        supports ? found_supports(out) : found_touches(out, op.objects)) {
-    if (!overlap(active_time(found), wanted)) continue;
+    if (!overlap(full_time(found.activation), wanted)) continue;
     if (is_changed_by_hand(found, set)) {
       ++changed_by_hand;
       continue;
     }
-    make_unique(set, found);
+    found.id = free_constraint_id(set, found.id);
     added.insert(found.id);
     set.constraints.push_back(std::move(found));
   }

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/constraint.h"
+
+namespace marey::edit {
+
+/// Differences below which two goals are the same.
+struct GoalTolerance {
+  double place_m = 1e-9;
+  /// One minus the cosine of half the angle between two rotations.
+  double rotation = 1e-9;
+};
+
+/// Returns true if two goals have the same type, numbers and names. Places and rotations
+/// may differ by the tolerance; distances and names must be equal.
+[[nodiscard]] bool is_same_goal(const Goal& a,
+                                const Goal& b,
+                                const GoalTolerance& tolerance = {});
+
+/// Returns true if two constraints are on the same point of the body.
+[[nodiscard]] bool is_same_point(const BodyPoint& a, const BodyPoint& b);
+
+/// Returns `id` if no constraint of the set has it; otherwise an id with the next free
+/// number: "leftFoot flat 3" for "leftFoot flat 1", "grip.2" for an id without a number.
+[[nodiscard]] std::string free_constraint_id(const ConstraintSet& set,
+                                             std::string_view id);
+
+}  // namespace marey::edit
