@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -16,9 +17,11 @@
 #include "edit/state/check_op_keys.h"
 #include "edit/state/constraint_copies.h"
 #include "edit/state/full_time.h"
+#include "edit/state/move_state.h"
 #include "edit/state/resolve_moment.h"
 
 #include "core/base/in_quotes.h"
+#include "core/nearest_word.h"
 #include "retarget/constraints/check_constraints.h"
 
 namespace marey::edit {
@@ -59,11 +62,17 @@ Status check_objects(const ConstrainOp& op) {
 }
 
 Status check_wanted(const ConstrainOp& op, const OpContext& context) {
-  if (!op.constraint && !op.detect && !op.adapt) {
-    return bad_input("constrain",
-                     "has nothing to do",
-                     "give a constraint, detect = \"supports\" or \"touches\", or "
-                     "adapt = true");
+  if (!op.constraint && !op.detect && op.changes.empty() && !op.adapt) {
+    return bad_input(
+        "constrain",
+        "has nothing to do",
+        "give a constraint, detect = \"supports\" or \"touches\", changes, or "
+        "adapt = true");
+  }
+  if (op.constraint && !op.changes.empty()) {
+    return bad_input("changes",
+                     "a constraint and changes of others are in one operation",
+                     "use two operations");
   }
   if (op.constraint && op.detect) {
     return bad_input("detect",
@@ -151,6 +160,113 @@ bool is_support(const Constraint& constraint) {
   return std::holds_alternative<Support>(constraint.goal);
 }
 
+/// Sets the times of a constraint from a change by hand.
+Status change_times(const ConstraintChange& change,
+                    const EditState& state,
+                    Constraint& constraint) {
+  Activation& when = constraint.activation;
+  // The fully active part keeps its edges while a fade is changed alone.
+  const FullTime full = full_time(when);
+  if (change.start_duration_s) {
+    when.start_duration_s = *change.start_duration_s;
+    if (when.start_s) when.start_s = full.from_s - when.start_duration_s;
+  }
+  if (change.stop_duration_s) when.stop_duration_s = *change.stop_duration_s;
+  const double hz = state.motion.rate.hz;
+  if (change.start) {
+    if (const auto* const time = std::get_if<AtTime>(&*change.start)) {
+      when.start_s = time->time_s;
+    } else {
+      const auto frame = resolve_moment(state, *change.start);
+      if (!frame) return frame.error();
+      when.start_s = (*frame - kSlackFrames) / hz - when.start_duration_s;
+    }
+  }
+  if (change.stop) {
+    if (const auto* const time = std::get_if<AtTime>(&*change.stop)) {
+      when.stop_s = time->time_s;
+    } else {
+      const auto span = resolve_span(state, {std::nullopt, *change.stop});
+      if (!span) return span.error();
+      when.stop_s = (span->last + kSlackFrames) / hz;
+    }
+  }
+  return Done{};
+}
+
+/// Returns the place that a change moves: a point, a footprint, or the middle of a box.
+std::optional<glm::dvec3> place_of(const Goal& goal) {
+  if (const auto* point = std::get_if<DistanceToPoint>(&goal)) return point->p_in_world;
+  if (const auto* support = std::get_if<Support>(&goal)) {
+    return support->footprint_in_world;
+  }
+  if (const auto* box = std::get_if<AllowedSpace>(&goal)) {
+    return 0.5 * (box->min_in_world + box->max_in_world);
+  }
+  if (const auto* box = std::get_if<ForbiddenSpace>(&goal)) {
+    return 0.5 * (box->min_in_world + box->max_in_world);
+  }
+  return std::nullopt;
+}
+
+/// Returns the supports of one stance: those of the same foot that take over from each
+/// other, from the heel to the ball.
+std::vector<Constraint*> stance_of(Constraint& support, ConstraintSet& set) {
+  constexpr double kTakesOver_s = 0.05;
+  std::vector<Constraint*> out{&support};
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const FullTime at = full_time(out[k]->activation);
+    for (Constraint& other : set.constraints) {
+      const auto* goal = std::get_if<Support>(&other.goal);
+      if (goal == nullptr || !goal->footprint_in_world ||
+          other.point.segment != support.point.segment ||
+          std::find(out.begin(), out.end(), &other) != out.end()) {
+        continue;
+      }
+      FullTime its = full_time(other.activation);
+      its.from_s -= kTakesOver_s;
+      its.to_s += kTakesOver_s;
+      if (overlap(at, its)) out.push_back(&other);
+    }
+  }
+  return out;
+}
+
+/// Applies one change by hand. A detected constraint loses the word "found", and the
+/// other supports of its stance lose it too if the footprint moves.
+Status change_constraint(const ConstraintChange& change, EditState& out) {
+  ConstraintSet& set = out.constraints;
+  const std::string where = "the change of " + in_quotes(change.name);
+  Constraint* constraint = set.find(change.name);
+  if (constraint == nullptr) constraint = detected_constraint(set, change.name);
+  if (constraint == nullptr) {
+    std::vector<std::string_view> names;
+    for (const Constraint& c : set.constraints) names.emplace_back(c.id);
+    return bad_input(where,
+                     "the motion has no constraint of this name",
+                     names.empty() ? "detect or add it before this operation"
+                                   : suggestion(change.name, names));
+  }
+  std::vector<Constraint*> changed{constraint};
+  if (change.p_in_world) {
+    const auto place = place_of(constraint->goal);
+    if (!place) {
+      return bad_input(where,
+                       "it has position_m, and the constraint has no place in the world",
+                       "remove position_m");
+    }
+    if (is_support(*constraint)) changed = stance_of(*constraint, set);
+    RigidTransform move;
+    move.translation = *change.p_in_world - *place;
+    for (Constraint* each : changed) move_constraint(move, *each);
+  }
+  if (const Status ok = change_times(change, out, *constraint); !ok) return ok.error();
+  for (Constraint* each : changed) {
+    if (is_found(each->id)) each->id = free_constraint_id(set, given_name(each->id));
+  }
+  return Done{};
+}
+
 /// Returns true if a constraint changed by hand stands for this one.
 bool is_changed_by_hand(const Constraint& found, const ConstraintSet& set) {
   return std::any_of(
@@ -236,6 +352,9 @@ Result<EditState> apply_constrain(const ConstrainOp& op,
   if (op.detect) {
     const Status ok = replace_found(op, context, *character, out, report);
     if (!ok) return ok.error();
+  }
+  for (const ConstraintChange& change : op.changes) {
+    if (const Status ok = change_constraint(change, out); !ok) return ok.error();
   }
   if (const Status ok = retarget::check_constraints(out.constraints, *character); !ok) {
     return ok.error();
