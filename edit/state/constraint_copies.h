@@ -9,6 +9,19 @@
 
 namespace marey::edit {
 
+/// Ids of detected constraints begin with this word, as in "found leftFoot flat 1". A
+/// constraint that is changed by hand loses it, and a new detection keeps it.
+inline constexpr std::string_view kFoundPrefix = "found ";
+
+[[nodiscard]] inline bool is_found(std::string_view id) {
+  return id.starts_with(kFoundPrefix);
+}
+
+/// Returns the id without the word of detected constraints.
+[[nodiscard]] inline std::string_view given_name(std::string_view id) {
+  return is_found(id) ? id.substr(kFoundPrefix.size()) : id;
+}
+
 /// Differences below which two goals are the same.
 struct GoalTolerance {
   double place_m = 1e-9;
