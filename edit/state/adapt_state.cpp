@@ -42,7 +42,7 @@ constexpr double kPlantedFade_m = 2e-3;
 constexpr double kPlantedTurn = 1.0 - 1e-6;  ///< Cosine of half an angle of 0.16 degrees.
 /// A detected touch is of millimetres. One that is missed by more was no touch, or
 /// contradicts another one. [m]
-constexpr double kMissed_m = 0.010;
+constexpr double kTouchMissed_m = 0.010;
 constexpr double kToMm = 1e3;
 constexpr double kToDeg = 180.0 / std::numbers::pi;
 
@@ -251,7 +251,7 @@ std::vector<std::string> missed_touches(const ConstraintSet& set,
                                         const retarget::AdaptedMotion& adapted) {
   std::vector<const retarget::KeptConstraint*> missed;
   for (const retarget::KeptConstraint& kept : adapted.constraints) {
-    if (is_found(kept.id) && !kept.is_support && kept.worst_error_m > kMissed_m) {
+    if (is_found(kept.id) && !kept.is_support && kept.worst_error_m > kTouchMissed_m) {
       missed.push_back(&kept);
     }
   }
@@ -300,7 +300,7 @@ Result<retarget::AdaptedMotion> adapt_to_possible(
                                    kToMm * kept->worst_error_m,
                                    *kept->worst_frame / motion.rate.hz),
                        "place it by hand, if the hand touches there")
-              .measured(kToMm * kept->worst_error_m, kToMm * kMissed_m, "mm"));
+              .measured(kToMm * kept->worst_error_m, kToMm * kTouchMissed_m, "mm"));
       std::erase_if(set.constraints, [&](const Constraint& c) { return c.id == id; });
       ++left_out;
     }

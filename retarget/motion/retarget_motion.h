@@ -43,7 +43,7 @@ struct RetargetOptions {
   DetectContactsOptions contacts;
   /// The source's contacts, if they are known, such as contacts that were changed by
   /// hand; nullopt: detected in the source.
-  std::optional<Contacts> known_contacts;
+  std::optional<Contacts> known_contacts{};
   GroundOptions ground;
   /// Options for keeping hand contacts and moving arms out of the body
   /// (retarget/hands/refine_hands.h); nullopt: arms keep the normalized posture.
