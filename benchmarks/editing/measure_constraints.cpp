@@ -9,9 +9,10 @@
 // Reads CMU's and Bandai Namco's clips, cuts them into pieces, and applies to each: the
 // detection of supports and touches, the adaptation to them, and the adaptation to one
 // more constraint that moves the right hand by 15 cm for half a second. Prints per clip:
-// constraints found, contradictions, constraints not met after adaptation, the
-// largest error, the drift of feet before and after, the largest displacement and the
-// largest acceleration that adaptation adds. Then counts errors and findings by cause.
+// constraints found, contradictions, touches left out as impossible, constraints not met
+// after adaptation, the largest error, the drift of feet before and after, the largest
+// displacement and the largest acceleration that adaptation adds. Then counts errors and
+// findings by cause.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -47,6 +48,7 @@ struct ConstraintFigures {
   int refused = 0;
   double supports = 0.0;
   double touches = 0.0;
+  double left_out = 0.0;
   double unmet = 0.0;
   double worst_mm = 0.0;
   double slide_before_mm = 0.0;
@@ -148,10 +150,11 @@ void measure_piece(edit::EditState state, ConstraintFigures& out, Causes& causes
     ++out.refused;
     return;
   }
+  out.left_out += figure_of(report, "left_out");
   out.unmet += figure_of(report, "unmet");
   out.worst_mm = std::max(out.worst_mm, figure_of(report, "worst_constraint_mm"));
   out.slide_mm = std::max(out.slide_mm, edit::measure_slide(state).worst_drift_mm);
-  out.largest_mm = std::max(out.largest_mm, figure_of(report, "largest_mm"));
+  out.largest_mm = std::max(out.largest_mm, figure_of(report, "displaced_mm"));
   out.added_m_per_s2 =
       std::max(out.added_m_per_s2, figure_of(report, "added_acceleration_m_per_s2"));
   edit::EditState moved = captured;
@@ -171,6 +174,7 @@ std::vector<TableCell> constraint_row(const std::string& name,
           static_cast<double>(f.refused),
           f.supports,
           f.touches,
+          f.left_out,
           f.unmet,
           f.worst_mm,
           f.slide_before_mm,
@@ -199,6 +203,7 @@ int measure_all(const fs::path& mocap, double piece_s) {
                      {"refused", 0},
                      {"supports", 0},
                      {"touches", 0},
+                     {"left out", 0},
                      {"unmet", 0},
                      {"worst mm", 1},
                      {"slide was mm", 1},

@@ -132,15 +132,29 @@ struct EditObject {
   glm::dvec3 min_in_world{0.0};
   glm::dvec3 max_in_world{0.0};
 };
-/// Adds a constraint, or the constraints that are detected in the motion.
+/// A change by hand of a constraint that the motion has, such as a detected one. Members
+/// without a value keep those of the constraint.
+struct ConstraintChange {
+  std::string name{};  ///< Its id.
+  std::optional<Moment>
+      start{};                   ///< AtTime: Activation::start_s; else fully active from.
+  std::optional<Moment> stop{};  ///< Activation::stop_s.
+  std::optional<double> start_duration_s{};
+  std::optional<double> stop_duration_s{};
+  /// New place of its goal: a point, a footprint, or the middle of a box.
+  std::optional<glm::dvec3> p_in_world{};
+};
+/// Adds a constraint, or the constraints that are detected in the motion, or changes
+/// them.
 struct ConstrainOp {
   std::optional<Constraint> constraint{};
   std::optional<Moment>
       from{};  ///< Start of the constraint, by an annotation or a frame.
   std::optional<Moment> to{};
   std::optional<DetectConstraints> detect{};
-  std::vector<EditObject> objects{};  ///< For kTouches.
-  bool adapt = false;                 ///< The motion is adapted to its constraints now.
+  std::vector<EditObject> objects{};        ///< For kTouches.
+  std::vector<ConstraintChange> changes{};  ///< Applied after the detection.
+  bool adapt = false;  ///< The motion is adapted to its constraints now.
 };
 
 /// Sets a part of the body at one instant, with a smooth displacement around it.

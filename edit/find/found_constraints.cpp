@@ -3,15 +3,21 @@
 #include "edit/find/found_constraints.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <map>
 #include <utility>
+#include <variant>
 
 #include "edit/find/box_touches.h"
+#include "edit/state/plant_feet.h"
 
 #include "core/humanoid.h"
+#include "core/pose.h"
 #include "retarget/adapt/plan_supports.h"
 #include "retarget/adapt/support_constraints.h"
 #include "retarget/body/body_volume.h"
+#include "retarget/constraints/resolve_segment.h"
 #include "retarget/feet/adapt_to_ground.h"
 #include "retarget/hands/find_touches.h"
 #include "retarget/hands/touch_constraints.h"
@@ -38,6 +44,83 @@ void add_slack(FrameRate rate, Activation& when) {
 
 bool overlap(const FrameRange& a, const FrameRange& b) {
   return a.first <= b.last && b.first <= a.last;
+}
+
+/// World frames of all joints, frame after frame.
+std::vector<std::vector<RigidTransform>> all_joints(const Motion& motion) {
+  std::vector<std::vector<RigidTransform>> out;
+  out.reserve(motion.poses.size());
+  for (const Pose& pose : motion.poses) {
+    out.push_back(world_from_joints(motion.skeleton, pose));
+  }
+  return out;
+}
+
+/// Distance of the hand of a touch from where the touch requires it.
+class TouchGap {
+ public:
+  TouchGap(const EditState& state, const Constraint& touch)
+      : state_(state), touch_(touch) {}
+
+  [[nodiscard]] double at(std::span<const RigidTransform> joints) const {
+    const glm::dvec3 hand = place_of(touch_.point, joints);
+    if (const auto* goal = std::get_if<DistanceToPoint>(&touch_.goal)) {
+      return std::abs(glm::distance(hand, goal->p_in_world) - goal->distance_m);
+    }
+    const auto* goal = std::get_if<DistanceToBody>(&touch_.goal);
+    if (goal == nullptr) return 0.0;
+    const double distance_m = glm::distance(hand, place_of(goal->other, joints));
+    return std::abs(distance_m - goal->distance_m);
+  }
+
+ private:
+  [[nodiscard]] glm::dvec3 place_of(const BodyPoint& point,
+                                    std::span<const RigidTransform> joints) const {
+    const auto joint =
+        retarget::resolve_segment(state_.motion.skeleton, point.segment).value();
+    const glm::dquat& t_pose_from_joint =
+        state_.map.joints[index(joint)].t_pose_from_joint;
+    return joints[index(joint)] *
+           (glm::conjugate(t_pose_from_joint) * point.offset_in_t_pose);
+  }
+
+  const EditState& state_;
+  const Constraint& touch_;
+};
+
+/// Limits the fades of touches to the time in which the hand is near. While it is further
+/// away, a touch that fades in would pull hand and body towards each other.
+void shorten_fades(const EditState& state, std::vector<Constraint>& touches) {
+  constexpr double kNear_m = 0.05;
+  constexpr double kMinFade_s = 0.1;
+  const double hz = state.motion.rate.hz;
+  const auto joints = all_joints(state.motion);
+  const int last = state.frame_count() - 1;
+  for (Constraint& touch : touches) {
+    const TouchGap gap(state, touch);
+    // Returns the time from an edge, in whole frames, in which the hand stays near.
+    const auto near_s = [&](double edge_s, int step, double fade_s) {
+      int frame = static_cast<int>(step < 0 ? std::ceil(edge_s * hz - kSlackFrames)
+                                            : std::floor(edge_s * hz + kSlackFrames));
+      double out_s = 0.0;
+      while (out_s < fade_s) {
+        frame += step;
+        if (frame < 0 || frame > last) return fade_s;
+        if (gap.at(joints[static_cast<std::size_t>(frame)]) > kNear_m) break;
+        out_s += 1.0 / hz;
+      }
+      return std::clamp(out_s, std::min(kMinFade_s, fade_s), fade_s);
+    };
+    Activation& when = touch.activation;
+    if (when.start_s) {
+      const double full_s = *when.start_s + when.start_duration_s;
+      when.start_duration_s = near_s(full_s, -1, when.start_duration_s);
+      when.start_s = full_s - when.start_duration_s;
+    }
+    if (when.stop_s) {
+      when.stop_duration_s = near_s(*when.stop_s, 1, when.stop_duration_s);
+    }
+  }
 }
 
 /// Returns the fade on one side of a touch on an object: at most half the pause.
@@ -99,7 +182,11 @@ std::string_view family_name(std::string_view id) {
   return out.substr(0, last);
 }
 
-std::vector<Constraint> found_supports(const EditState& state) {
+std::vector<Constraint> found_supports(const EditState& detected) {
+  // Adaptation plants the feet first. Footprints that differ from the planted ones by
+  // millimetres would move the whole body, and bend knees that are straight.
+  EditState state = detected;
+  (void)plant_feet(state);
   retarget::PlanSupportsOptions options;
   options.floor_height_m =
       -retarget::standing_rise_m(state.map, state.contacts, state.map, 1.0);
@@ -126,6 +213,7 @@ std::vector<Constraint> found_touches(const EditState& state,
   retarget::TouchConstraintsOptions options;
   options.fade_s = kTouchFade_s;
   options.precision_m = kTouchPrecision_m;
+  options.nearest_alone = true;
   std::vector<Constraint> out =
       retarget::constraints_of(
           touches, motion.skeleton, state.map, volume, 0, motion.rate, options)
@@ -134,6 +222,7 @@ std::vector<Constraint> found_touches(const EditState& state,
   for (Constraint& constraint : box_constraints(state, boxes, objects)) {
     out.push_back(std::move(constraint));
   }
+  shorten_fades(state, out);
   add_found_prefix(out);
   return out;
 }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "edit/ops/cycle_constraints.h"
 #include "edit/ops/cycle_paths.h"
 #include "edit/state/resample_state.h"
 #include <glm/geometric.hpp>
@@ -26,6 +27,8 @@ using retarget::FootPlace;
 
 /// Rounding error of an instant. [frames]
 constexpr double kSameInstant = 1e-9;
+/// A body that travels less per cycle does not leave the places of its constraints.
+constexpr double kStaysInPlace_m = 1e-6;
 
 /// Signals of one cycle and its surroundings in the frame of the screw.
 struct CycleChannels {
@@ -228,15 +231,23 @@ ThreeCycles repeat_channels(const CycleChannels& channels,
   return out;
 }
 
-Motion source_on_path(const CycleSamples& cycle, const CyclePaths& paths, bool in_place) {
+/// Moves from the source to the path of the result, by frame of the cycle.
+std::vector<PlanarMove> path_moves(const CyclePaths& paths, int frames, bool in_place) {
+  std::vector<PlanarMove> out;
+  for (int k = 0; k < frames; ++k) {
+    const double share = static_cast<double>(k) / frames;
+    const PlanarMove move = paths.new_path(share) * inverse(paths.old_path(share));
+    out.push_back(in_place ? paths.in_place(share) * move : move);
+  }
+  return out;
+}
+
+Motion moved_source(const CycleSamples& cycle, const std::vector<PlanarMove>& moves) {
   Motion out{cycle.samples.motion.skeleton, cycle.samples.motion.rate, 0, {}};
-  for (int k = 0; k < cycle.frame.frames; ++k) {
-    const auto t = static_cast<std::size_t>(cycle.frame.before + k);
-    const double share = share_of(cycle.frame, t);
-    PlanarMove move = paths.new_path(share) * inverse(paths.old_path(share));
-    if (in_place) move = paths.in_place(share) * move;
+  for (std::size_t k = 0; k < moves.size(); ++k) {
+    const auto t = static_cast<std::size_t>(cycle.frame.before) + k;
     out.poses.push_back(cycle.samples.motion.poses[t]);
-    move_pose(move, out.poses.back());
+    move_pose(moves[k], out.poses.back());
   }
   return out;
 }
@@ -313,12 +324,15 @@ ClosedCycle close_cycle(const EditState& state, const CycleSpec& spec) {
   }
   out.three = std::move(three.state.motion);
   const bool in_place = spec.drift == CycleDrift::kNone;
-  out.source = source_on_path(cycle, paths, in_place);
+  const std::vector<PlanarMove> moves = path_moves(paths, frames, in_place);
+  out.source = moved_source(cycle, moves);
   if (in_place) {
     put_in_place(paths, out.cycle);
   } else {
     out.step = out.travel;
   }
+  out.dropped = carry_constraints(
+      state, moves, out.source, in_place && out.travel_m > kStaysInPlace_m, out.cycle);
   return out;
 }
 

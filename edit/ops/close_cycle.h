@@ -3,6 +3,7 @@
 #pragma once
 
 #include "edit/find/planar_match.h"
+#include "edit/ops/cycle_constraints.h"
 #include "edit/ops/periodic_channel.h"
 #include "edit/state/edit_state.h"
 #include "edit/state/plant_feet.h"
@@ -24,7 +25,8 @@ struct CycleSpec {
 /// frame is the one before the repetition.
 struct ClosedCycle {
   /// One cycle at the motion's rate, with contacts, annotations, uncertainty and lineage
-  /// of the source. CycleDrift::kNone: the root stays in place.
+  /// of the source, and its constraints moved with it (carry_constraints()).
+  /// CycleDrift::kNone: the root stays in place.
   EditState cycle;
   PlanarMove step;  ///< Identity for CycleDrift::kNone.
   /// The source's postures of the same frames, moved rigidly frame by frame onto the
@@ -38,6 +40,7 @@ struct ClosedCycle {
   PlanarMove travel;
   double travel_m = 0.0;  ///< Distance that the hips travel in one cycle.
   PlantReport plant;
+  DroppedConstraints dropped;  ///< Of the source's constraints.
 };
 
 /// Returns the number of whole frames nearest to the period: at least 2.

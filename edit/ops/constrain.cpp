@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -14,9 +15,13 @@
 #include "edit/find/found_constraints.h"
 #include "edit/state/adapt_state.h"
 #include "edit/state/check_op_keys.h"
+#include "edit/state/constraint_copies.h"
+#include "edit/state/full_time.h"
+#include "edit/state/move_state.h"
 #include "edit/state/resolve_moment.h"
 
 #include "core/base/in_quotes.h"
+#include "core/nearest_word.h"
 #include "retarget/constraints/check_constraints.h"
 
 namespace marey::edit {
@@ -24,7 +29,6 @@ namespace {
 
 /// The ends of an interval must be fully active despite rounding. [frames]
 constexpr double kSlackFrames = 0.01;
-constexpr double kForever_s = 1e12;
 
 Status check_objects(const ConstrainOp& op) {
   if (op.objects.empty()) return Done{};
@@ -58,11 +62,17 @@ Status check_objects(const ConstrainOp& op) {
 }
 
 Status check_wanted(const ConstrainOp& op, const OpContext& context) {
-  if (!op.constraint && !op.detect && !op.adapt) {
-    return bad_input("constrain",
-                     "has nothing to do",
-                     "give a constraint, detect = \"supports\" or \"touches\", or "
-                     "adapt = true");
+  if (!op.constraint && !op.detect && op.changes.empty() && !op.adapt) {
+    return bad_input(
+        "constrain",
+        "has nothing to do",
+        "give a constraint, detect = \"supports\" or \"touches\", changes, or "
+        "adapt = true");
+  }
+  if (op.constraint && !op.changes.empty()) {
+    return bad_input("changes",
+                     "a constraint and changes of others are in one operation",
+                     "use two operations");
   }
   if (op.constraint && op.detect) {
     return bad_input("detect",
@@ -146,24 +156,115 @@ Status place_constraint(const ConstrainOp& op, const OpContext& context, EditSta
   return Done{};
 }
 
-/// Interval in which a constraint acts, fades included. [s]
-struct ActiveTime {
-  double from_s = 0.0;
-  double to_s = 0.0;
-};
-
-ActiveTime active_time(const Constraint& constraint) {
-  const Activation& when = constraint.activation;
-  return {when.start_s ? *when.start_s + when.start_duration_s : -kForever_s,
-          when.stop_s.value_or(kForever_s)};
-}
-
-bool overlap(const ActiveTime& a, const ActiveTime& b) {
-  return a.from_s <= b.to_s && b.from_s <= a.to_s;
-}
-
 bool is_support(const Constraint& constraint) {
   return std::holds_alternative<Support>(constraint.goal);
+}
+
+/// Sets the times of a constraint from a change by hand.
+Status change_times(const ConstraintChange& change,
+                    const EditState& state,
+                    Constraint& constraint) {
+  Activation& when = constraint.activation;
+  // The fully active part keeps its edges while a fade is changed alone.
+  const FullTime full = full_time(when);
+  if (change.start_duration_s) {
+    when.start_duration_s = *change.start_duration_s;
+    if (when.start_s) when.start_s = full.from_s - when.start_duration_s;
+  }
+  if (change.stop_duration_s) when.stop_duration_s = *change.stop_duration_s;
+  const double hz = state.motion.rate.hz;
+  if (change.start) {
+    if (const auto* const time = std::get_if<AtTime>(&*change.start)) {
+      when.start_s = time->time_s;
+    } else {
+      const auto frame = resolve_moment(state, *change.start);
+      if (!frame) return frame.error();
+      when.start_s = (*frame - kSlackFrames) / hz - when.start_duration_s;
+    }
+  }
+  if (change.stop) {
+    if (const auto* const time = std::get_if<AtTime>(&*change.stop)) {
+      when.stop_s = time->time_s;
+    } else {
+      const auto span = resolve_span(state, {std::nullopt, *change.stop});
+      if (!span) return span.error();
+      when.stop_s = (span->last + kSlackFrames) / hz;
+    }
+  }
+  return Done{};
+}
+
+/// Returns the place that a change moves: a point, a footprint, or the middle of a box.
+std::optional<glm::dvec3> place_of(const Goal& goal) {
+  if (const auto* point = std::get_if<DistanceToPoint>(&goal)) return point->p_in_world;
+  if (const auto* support = std::get_if<Support>(&goal)) {
+    return support->footprint_in_world;
+  }
+  if (const auto* box = std::get_if<AllowedSpace>(&goal)) {
+    return 0.5 * (box->min_in_world + box->max_in_world);
+  }
+  if (const auto* box = std::get_if<ForbiddenSpace>(&goal)) {
+    return 0.5 * (box->min_in_world + box->max_in_world);
+  }
+  return std::nullopt;
+}
+
+/// Returns the supports of one stance: those of the same foot that take over from each
+/// other, from the heel to the ball.
+std::vector<Constraint*> stance_of(Constraint& support, ConstraintSet& set) {
+  constexpr double kTakesOver_s = 0.05;
+  std::vector<Constraint*> out{&support};
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const FullTime at = full_time(out[k]->activation);
+    for (Constraint& other : set.constraints) {
+      const auto* goal = std::get_if<Support>(&other.goal);
+      if (goal == nullptr || !goal->footprint_in_world ||
+          other.point.segment != support.point.segment ||
+          std::find(out.begin(), out.end(), &other) != out.end()) {
+        continue;
+      }
+      FullTime its = full_time(other.activation);
+      its.from_s -= kTakesOver_s;
+      its.to_s += kTakesOver_s;
+      if (overlap(at, its)) out.push_back(&other);
+    }
+  }
+  return out;
+}
+
+/// Applies one change by hand. A detected constraint loses the word "found", and the
+/// other supports of its stance lose it too if the footprint moves.
+Status change_constraint(const ConstraintChange& change, EditState& out) {
+  ConstraintSet& set = out.constraints;
+  const std::string where = "the change of " + in_quotes(change.name);
+  Constraint* constraint = set.find(change.name);
+  if (constraint == nullptr) constraint = detected_constraint(set, change.name);
+  if (constraint == nullptr) {
+    std::vector<std::string_view> names;
+    for (const Constraint& c : set.constraints) names.emplace_back(c.id);
+    return bad_input(where,
+                     "the motion has no constraint of this name",
+                     names.empty() ? "detect or add it before this operation"
+                                   : suggestion(change.name, names));
+  }
+  std::vector<Constraint*> changed{constraint};
+  if (change.p_in_world) {
+    const auto place = place_of(constraint->goal);
+    if (!place) {
+      return bad_input(where,
+                       "it has position_m, and the constraint has no place in the world",
+                       "remove position_m");
+    }
+    if (is_support(*constraint)) changed = stance_of(*constraint, set);
+    RigidTransform move;
+    move.translation = *change.p_in_world - *place;
+    for (Constraint* each : changed) move_constraint(move, *each);
+  }
+  if (const Status ok = change_times(change, out, *constraint); !ok) return ok.error();
+  for (Constraint* each : changed) {
+    if (is_found(each->id)) each->id = free_constraint_id(set, given_name(each->id));
+  }
+  return Done{};
 }
 
 /// Returns true if a constraint changed by hand stands for this one.
@@ -172,17 +273,8 @@ bool is_changed_by_hand(const Constraint& found, const ConstraintSet& set) {
       set.constraints.begin(), set.constraints.end(), [&](const Constraint& other) {
         return !is_found(other.id) && other.point.segment == found.point.segment &&
                family_name(other.id) == family_name(found.id) &&
-               overlap(active_time(other), active_time(found));
+               overlap(full_time(other.activation), full_time(found.activation));
       });
-}
-
-/// Gives the id the next free number.
-void make_unique(const ConstraintSet& set, Constraint& constraint) {
-  const std::string family =
-      std::string(kFoundPrefix) + std::string(family_name(constraint.id));
-  for (int number = 2; set.find(constraint.id) != nullptr; ++number) {
-    constraint.id = family + " " + std::to_string(number);
-  }
 }
 
 /// Removes the constraints of this operation that contradict others.
@@ -214,23 +306,25 @@ Status replace_found(const ConstrainOp& op,
   const auto span = resolve_span(out, context.op.span);
   if (!span) return span.error();
   const double hz = out.motion.rate.hz;
-  const ActiveTime wanted{context.op.span.from ? span->first / hz : -kForever_s,
-                          context.op.span.to ? span->last / hz : kForever_s};
+  FullTime wanted = full_time({});
+  if (context.op.span.from) wanted.from_s = span->first / hz;
+  if (context.op.span.to) wanted.to_s = span->last / hz;
   const bool supports = *op.detect == DetectConstraints::kSupports;
   ConstraintSet& set = out.constraints;
   std::erase_if(set.constraints, [&](const Constraint& c) {
-    return is_found(c.id) && is_support(c) == supports && overlap(active_time(c), wanted);
+    return is_found(c.id) && is_support(c) == supports &&
+           overlap(full_time(c.activation), wanted);
   });
   std::set<std::string> added;
   int changed_by_hand = 0;
   for (Constraint& found :
        supports ? found_supports(out) : found_touches(out, op.objects)) {
-    if (!overlap(active_time(found), wanted)) continue;
+    if (!overlap(full_time(found.activation), wanted)) continue;
     if (is_changed_by_hand(found, set)) {
       ++changed_by_hand;
       continue;
     }
-    make_unique(set, found);
+    found.id = free_constraint_id(set, found.id);
     added.insert(found.id);
     set.constraints.push_back(std::move(found));
   }
@@ -258,6 +352,9 @@ Result<EditState> apply_constrain(const ConstrainOp& op,
   if (op.detect) {
     const Status ok = replace_found(op, context, *character, out, report);
     if (!ok) return ok.error();
+  }
+  for (const ConstraintChange& change : op.changes) {
+    if (const Status ok = change_constraint(change, out); !ok) return ok.error();
   }
   if (const Status ok = retarget::check_constraints(out.constraints, *character); !ok) {
     return ok.error();

@@ -19,6 +19,12 @@ namespace marey::edit {
 /// constraint loses the word "found" in its id. It can be changed again under either id
 /// with "found".
 ///
+/// Changes by hand name a constraint of the motion, detected or not, and set its times,
+/// fades and place. Seconds are those of its activation, so a start is that of its fade;
+/// frames and annotations are the ends of the time in which it is fully active. A change
+/// of a fade alone keeps that time. A footprint takes along the other supports of its
+/// stance. Changed constraints lose the word "found", as above.
+///
 /// Detection (found_supports(), found_touches()) replaces the constraints of earlier
 /// detections of the same kind, not those changed by hand: a new constraint that overlaps
 /// a changed one of the same segment and kind in time is left out. With a span, only
@@ -30,11 +36,12 @@ namespace marey::edit {
 /// touches the lineage. Figures: constraints, found (by this detection), changed_by_hand
 /// (left out for that reason); adapt_state()'s.
 ///
-/// Errors (bad input): nothing to do; a constraint together with a detection; groups;
-/// objects without detection of touches, without a name, with a duplicate name, not
-/// finite, or with min above max; an interval that ends before it starts; a duplicate id;
-/// those of resolve_moment(), character_of() and retarget::check_constraints() for all
-/// constraints together.
+/// Errors (bad input): nothing to do; a constraint together with a detection or changes;
+/// a change of a constraint that the motion does not have, or of the place of one without
+/// a place; groups; objects without detection of touches, without a name, with a
+/// duplicate name, not finite, or with min above max; an interval that ends before it
+/// starts; a duplicate id; those of resolve_moment(), character_of() and
+/// retarget::check_constraints() for all constraints together.
 [[nodiscard]] Result<EditState> apply_constrain(const ConstrainOp& op,
                                                 const OpContext& context,
                                                 const EditState& state,

@@ -15,6 +15,7 @@
 #include "edit/find/find_loops.h"
 #include "edit/ops/close_cycle.h"
 #include "edit/ops/seam_acceleration.h"
+#include "edit/splice/repeat_constraints.h"
 #include "edit/state/check_op_keys.h"
 #include "edit/state/resample_state.h"
 #include "edit/state/resolve_moment.h"
@@ -242,6 +243,7 @@ void repeat_cycle(const PlanarMove& step,
   repeat_entries(state.lineage.frames, count);
   for (ValueCurve& curve : state.annotations.curves) repeat_entries(curve.values, count);
   state.contacts = repeat_contacts(state.contacts, count);
+  state.constraints = repeat_constraints(state.constraints, step, period_s, count);
   const std::vector<ContactEdit> edits = state.contact_edits;
   for (int copy = 1; copy < count; ++copy) {
     for (ContactEdit edit : edits) {
@@ -284,11 +286,13 @@ void report_cycle(const ChosenCycle& chosen,
 }
 
 void report_doubts(const ChosenCycle& chosen,
+                   const ClosedCycle& closed,
                    const CyclifyOp& op,
                    const EditState& state,
                    OpReport& report) {
   const double max_m = kMaxJointGap_legs * state.map.leg_length_m;
   const PlanarMatch& match = chosen.loop.match;
+  const std::size_t had = state.constraints.constraints.size();
   if (match.worst_m > max_m || match.rms_m > kMaxGap_legs * state.map.leg_length_m) {
     report.findings.push_back(
         fair_finding("loop_gap",
@@ -300,14 +304,20 @@ void report_doubts(const ChosenCycle& chosen,
                      "choose other frames, or check the movement around the seam"));
     report.findings.back().measured(1e3 * match.worst_m, 1e3 * max_m, "mm");
   }
-  if (!state.constraints.constraints.empty()) {
-    report.findings.push_back(
-        fair_finding("constraints_dropped",
-                     "constraints",
-                     std::to_string(state.constraints.constraints.size()) +
-                         " constraints were dropped: each cycle is at another place",
-                     "add constraints after the loop is made"));
-  }
+  const auto dropped = [&](int count, const char* cause, const char* next) {
+    if (count == 0) return;
+    report.findings.push_back(fair_finding(
+        "constraints_dropped",
+        "constraints",
+        format_text("%d of %zu constraints were dropped: %s", count, had, cause),
+        next));
+  };
+  dropped(closed.dropped.outside,
+          "they are not active within the cycle",
+          "choose a cycle that contains them, or add them after the loop is made");
+  dropped(closed.dropped.in_place,
+          "the body leaves their places, because it stays in place",
+          "use another drift, or add constraints after the loop is made");
   if (op.drift == CycleDrift::kNone) {
     Finding note;
     note.id = "in_place";
@@ -333,12 +343,11 @@ Result<EditState> apply_cyclify(const CyclifyOp& op,
   if (!gap) return gap.error();
   ClosedCycle closed = close_cycle(state, chosen->spec);
   EditState out = std::move(closed.cycle);
-  out.constraints = {};
   const FrameRange all{0, out.frame_count() - 1};
   const double displaced_m = mark_displaced(out, closed.source, all, context.index);
   closed.cycle.motion = out.motion;
   report_cycle(*chosen, closed, displaced_m, state, report);
-  report_doubts(*chosen, op, state, report);
+  report_doubts(*chosen, closed, op, state, report);
   repeat_cycle(
       closed.step, cycle_events(closed.contacts, out.motion.rate.hz), op.cycles, out);
   return out;

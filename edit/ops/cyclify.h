@@ -20,9 +20,13 @@ namespace marey::edit {
 /// Annotations, contacts, uncertainty and lineage are those of the source's frames, in
 /// each copy. The result has the annotation "loops" over its whole length, and the events
 /// left.strike, left.toe_off, right.strike and right.toe_off of the cycle, that at the
-/// seam included. Constraints are dropped, with a finding: each cycle is at another
-/// place. Frames with a joint that moved by more than 10 mm against the source on its new
-/// path are inferred.
+/// seam included. Frames with a joint that moved by more than 10 mm against the source on
+/// its new path are inferred.
+///
+/// Constraints that are fully active at some time of the cycle move with it
+/// (carry_constraints()), and each copy has its own with a new id (repeat_constraints()).
+/// Others are dropped, with a finding that has their number; so are, with
+/// CycleDrift::kNone, those at a place of the world if the source travels.
 ///
 /// Errors (bad input): groups or blend_s are given (a loop is of the whole body); no
 /// cycle was found; the period's limits are reversed, or longer than the motion; `from`

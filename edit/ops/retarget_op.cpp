@@ -192,6 +192,8 @@ Result<EditState> apply_retarget(const RetargetOp& op,
   if (!avatar) return avatar.error();
   retarget::RetargetOptions options;
   options.hands.emplace();
+  // A new detection would not have the edges that were moved by hand.
+  options.known_contacts = state.contacts;
   if (op.keep_world) options.path = retarget::WorldLengths::kKept;
   auto retargeted = retarget::retarget_motion(state.motion, **avatar, options);
   if (!retargeted) return retargeted.error();
@@ -209,8 +211,6 @@ Result<EditState> apply_retarget(const RetargetOp& op,
   out.contact_edits = state.contact_edits;
   out.lineage = state.lineage;
   touch(out.lineage, {0, out.frame_count() - 1}, context.index);
-  int unreachable = retargeted->report.ground.unreachable_frames;
-  if (!out.contact_edits.empty()) unreachable = plant_feet(out).unreachable_frames;
   out.constraints = state.constraints;
   const int dropped = scale_constraints(world, out, report);
   report.figures.emplace_back("scale", world.scale);
@@ -218,7 +218,8 @@ Result<EditState> apply_retarget(const RetargetOp& op,
   report.figures.emplace_back("constraints",
                               static_cast<double>(out.constraints.constraints.size()));
   report.figures.emplace_back("dropped_constraints", dropped);
-  report.figures.emplace_back("unreachable_frames", unreachable);
+  report.figures.emplace_back("unreachable_frames",
+                              retargeted->report.ground.unreachable_frames);
   return out;
 }
 

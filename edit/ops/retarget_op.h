@@ -13,7 +13,8 @@ namespace marey::edit {
 /// is touched.
 ///
 /// - Contacts: those of the state, with the avatar's heights of the ankle and ball above
-///   the floor Y = 0. If they were changed by hand, the feet are planted again.
+///   the floor Y = 0. The avatar's feet stand during them, and during no others; so edges
+///   that were changed by hand hold on the avatar, and after a new detection there.
 /// - Constraints: places, boxes and distances are scaled with the body, or keep their
 ///   metres over the ground with keep_world; offsets on segments are scaled. Footprints
 ///   are the avatar's own place in the middle of the support. A constraint of a segment

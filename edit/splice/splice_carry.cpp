@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "edit/splice/splice_contacts.h"
+#include "edit/state/constraint_copies.h"
 #include "edit/state/resample_state.h"
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
 
@@ -23,63 +23,8 @@ namespace marey::edit {
 namespace {
 
 constexpr double kSameTime_s = 1e-9;
-constexpr double kSamePlace_m = 1e-9;
-
-bool is_near(const glm::dvec3& a, const glm::dvec3& b) {
-  return glm::distance(a, b) < kSamePlace_m;
-}
-
-bool is_near(const glm::dquat& a, const glm::dquat& b) {
-  return 1.0 - std::abs(glm::dot(a, b)) < kSamePlace_m;
-}
-
-template <class T>
-bool is_near(const std::optional<T>& a, const std::optional<T>& b) {
-  return a.has_value() == b.has_value() && (!a || is_near(*a, *b));
-}
-
-// Compares two goals of one type.
-struct SameGoal {
-  const Goal& other;
-
-  bool operator()(const DistanceToPoint& a) const {
-    const auto& b = std::get<DistanceToPoint>(other);
-    return a.distance_m == b.distance_m && is_near(a.p_in_world, b.p_in_world);
-  }
-  bool operator()(const DistanceToBody& a) const {
-    const auto& b = std::get<DistanceToBody>(other);
-    return a.distance_m == b.distance_m && a.other.segment == b.other.segment &&
-           is_near(a.other.offset_in_t_pose, b.other.offset_in_t_pose);
-  }
-  bool operator()(const DistanceToConstraint& a) const {
-    const auto& b = std::get<DistanceToConstraint>(other);
-    return a.distance_m == b.distance_m && a.other_id == b.other_id;
-  }
-  bool operator()(const AllowedSpace& a) const {
-    const auto& b = std::get<AllowedSpace>(other);
-    return is_near(a.min_in_world, b.min_in_world) &&
-           is_near(a.max_in_world, b.max_in_world);
-  }
-  bool operator()(const ForbiddenSpace& a) const {
-    const auto& b = std::get<ForbiddenSpace>(other);
-    return is_near(a.min_in_world, b.min_in_world) &&
-           is_near(a.max_in_world, b.max_in_world);
-  }
-  bool operator()(const SegmentOrientation& a) const {
-    return is_near(a.world_from_t_pose,
-                   std::get<SegmentOrientation>(other).world_from_t_pose);
-  }
-  bool operator()(const Support& a) const {
-    const auto& b = std::get<Support>(other);
-    return a.turns == b.turns && is_near(a.footprint_in_world, b.footprint_in_world) &&
-           is_near(a.world_from_t_pose, b.world_from_t_pose);
-  }
-};
-
 bool is_same_constraint(const Constraint& a, const Constraint& b) {
-  return a.id == b.id && a.point.segment == b.point.segment &&
-         is_near(a.point.offset_in_t_pose, b.point.offset_in_t_pose) &&
-         a.goal.index() == b.goal.index() && std::visit(SameGoal{b.goal}, a.goal);
+  return a.id == b.id && is_same_point(a.point, b.point) && is_same_goal(a.goal, b.goal);
 }
 
 bool lasts_beyond(const Activation& when, double time_s) {
@@ -100,13 +45,6 @@ struct JoinTime {
   double at_s = 0.0;
   double fade_s = 0.0;
 };
-
-std::string free_id(const ConstraintSet& set, const std::string& id) {
-  if (set.find(id) == nullptr) return id;
-  int number = 2;
-  while (set.find(id + "." + std::to_string(number)) != nullptr) ++number;
-  return id + "." + std::to_string(number);
-}
 
 ConstraintSet joined_constraints(ConstraintSet set,
                                  const ConstraintSet& tail,
@@ -143,7 +81,7 @@ ConstraintSet joined_constraints(ConstraintSet set,
   }
   const std::size_t count = set.constraints.size();
   for (Constraint& constraint : added) {
-    const std::string id = free_id(set, constraint.id);
+    const std::string id = free_constraint_id(set, constraint.id);
     renamed[constraint.id] = id;
     constraint.id = id;
     set.constraints.push_back(std::move(constraint));

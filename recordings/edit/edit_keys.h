@@ -147,9 +147,20 @@ void visit_keys(V& keys, KeysOf<EditObject> /*of*/) {
 }
 
 template <class V>
+void visit_keys(V& keys, KeysOf<ConstraintChange> /*of*/) {
+  keys.needed_text("name", &ConstraintChange::name, kMaxNameBytes);
+  keys.moment("start", &ConstraintChange::start);
+  keys.moment("stop", &ConstraintChange::stop);
+  keys.number("start_duration_s", &ConstraintChange::start_duration_s, kTime);
+  keys.number("stop_duration_s", &ConstraintChange::stop_duration_s, kTime);
+  keys.place("position_m", &ConstraintChange::p_in_world);
+}
+
+template <class V>
 void visit_keys(V& keys, KeysOf<ConstrainOp> /*of*/) {
   keys.choice("detect", &ConstrainOp::detect, kDetected);
   keys.list("objects", &ConstrainOp::objects);
+  keys.list("changes", &ConstrainOp::changes);
   keys.boolean("adapt", &ConstrainOp::adapt);
   keys.constraint();
 }

@@ -127,9 +127,31 @@ void check_op(TomlReader& in, ContactsOp& op) {
   }
 }
 
+void check_changes(TomlReader& in, const std::vector<ConstraintChange>& changes) {
+  for (std::size_t k = 0; k < changes.size(); ++k) {
+    const ConstraintChange& change = changes[k];
+    const bool has_change = change.start || change.stop || change.start_duration_s ||
+                            change.stop_duration_s || change.p_in_world;
+    if (!has_change) {
+      in.fail("changes",
+              "the change of " + in_quotes(change.name) + " changes nothing",
+              "give start, stop, start_duration_s, stop_duration_s or position_m");
+    }
+    check_span(in, "changes", {change.start, change.stop});
+    for (std::size_t other = 0; other < k; ++other) {
+      if (changes[other].name != change.name) continue;
+      in.fail("changes",
+              "there are two changes of " + in_quotes(change.name),
+              "give one change per constraint");
+    }
+  }
+}
+
 void check_op(TomlReader& in, ConstrainOp& op) {
-  need_one_of(in, {"constraint", "detect", "adapt"});
+  need_one_of(in, {"constraint", "detect", "changes", "adapt"});
   exclude(in, "constraint", "detect");
+  exclude(in, "constraint", "changes");
+  check_changes(in, op.changes);
   const bool is_touch = op.detect == DetectConstraints::kTouches;
   if (is_touch && op.objects.empty()) need_one_of(in, {"objects"});
   if (!is_touch && in.has("objects")) {

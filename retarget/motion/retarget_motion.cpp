@@ -329,7 +329,10 @@ Result<RetargetedMotion> retarget_motion(const Motion& source,
   const BodyMap& to = bodies->avatar;
 
   RetargetedMotion out;
-  out.report.contacts = detect_contacts(source, from, options.contacts);
+  out.report.contacts = options.known_contacts
+                            ? *options.known_contacts
+                            : detect_contacts(source, from, options.contacts);
+  MAREY_ASSERT(out.report.contacts.frame_count == static_cast<int>(source.poses.size()));
   const double unit_m = root_unit_m(to, options.root);
   WorldScale world{unit_m / root_unit_m(from, options.root)};
   world.keeps_path = options.path == WorldLengths::kKept;

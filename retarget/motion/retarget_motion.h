@@ -41,6 +41,9 @@ struct RetargetOptions {
   const Skin* skin = nullptr;
   LiftSkinOptions lift;
   DetectContactsOptions contacts;
+  /// The source's contacts, if they are known, such as contacts that were changed by
+  /// hand; nullopt: detected in the source.
+  std::optional<Contacts> known_contacts{};
   GroundOptions ground;
   /// Options for keeping hand contacts and moving arms out of the body
   /// (retarget/hands/refine_hands.h); nullopt: arms keep the normalized posture.
@@ -89,7 +92,7 @@ struct FootFigures {
                                        const Contacts& contacts);
 
 struct RetargetReport {
-  Contacts contacts;   ///< Stances, detected in the source.
+  Contacts contacts;   ///< Stances of the source, detected or as given.
   FootFigures before;  ///< On the avatar, without ground adaptation.
   FootFigures after;   ///< On the avatar, final result.
   GroundReport ground;
@@ -117,7 +120,8 @@ struct RetargetedMotion {
 /// more.
 ///
 /// Errors: those of map_bodies() and place_masses(); balance without ground adaptation.
-/// Precondition: the rate is positive; every pose has one entry per joint.
+/// Precondition: the rate is positive; every pose has one entry per joint; known contacts
+/// have the source's frames.
 [[nodiscard]] Result<RetargetedMotion> retarget_motion(
     const Motion& source, const Skeleton& avatar, const RetargetOptions& options = {});
 

@@ -4,11 +4,13 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "edit/state/apply_contact_edits.h"
+#include "edit/state/plant_feet.h"
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -252,6 +254,54 @@ TEST(ConstrainOp, SupportsFoundInAWalkHardlyMoveIt) {
   EXPECT_LT(scene.figure("slide_mm"), 0.1);
 }
 
+TEST(ConstrainOp, ADetectedTouchThatNoPostureMeetsIsLeftOut) {
+  EditState state = state_of(standing_motion(180));
+  Constraint out_of_reach = hand_at("found left hand still 1", {0.0, 3.5, 0.0});
+  out_of_reach.activation = {0.7, 1.5, 0.3, 0.3};
+  Constraint near = hand_at("found right hand still 1", {});
+  near.point.segment = "rightHand";
+  near.activation = out_of_reach.activation;
+  near.goal = DistanceToPoint{
+      0.0,
+      joint_way(state.motion, HumanBone::kRightHand)[0] + glm::dvec3(0.0, 0.05, 0.05)};
+  state.constraints.constraints = {out_of_reach, near};
+  ConstrainOp adapt;
+  adapt.adapt = true;
+  OpScene<ConstrainOp> scene(adapt);
+  const EditState out = done(scene, state);
+  EXPECT_TRUE(scene.has_finding("touch_left_out"));
+  EXPECT_EQ(scene.figure("left_out"), 1.0);
+  EXPECT_EQ(scene.figure("unmet"), 0.0);
+  ASSERT_EQ(out.constraints.constraints.size(), 1U);
+  EXPECT_EQ(out.constraints.constraints[0].id, near.id);
+  const auto is = joint_way(out.motion, HumanBone::kLeftHand);
+  const auto was = joint_way(state.motion, HumanBone::kLeftHand);
+  EXPECT_LT(glm::distance(is[75], was[75]), 0.02);
+}
+
+// Planting and detection agree on the footprints, so adaptation adds no movement.
+TEST(ConstrainOp, SupportsFoundInNoisyWalksAddNoAcceleration) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    Motion motion = testing::synthetic_walk(240, kRate_hz).motion;
+    add_motion_noise(motion, seed, 0.004, 0.001);
+    EditState planted = state_of(motion);
+    OpScene<ConstrainOp> scene = detection(DetectConstraints::kSupports);
+    std::get<ConstrainOp>(scene.op.parameters).adapt = true;
+    const EditState out = done(scene, planted);
+    plant_feet(planted);
+    for (const HumanBone bone : {HumanBone::kLeftLowerLeg, HumanBone::kRightFoot}) {
+      const auto a = joint_way(planted.motion, bone);
+      const auto b = joint_way(out.motion, bone);
+      for (std::size_t t = 1; t + 1 < a.size(); ++t) {
+        const glm::dvec3 bend =
+            (b[t + 1] - a[t + 1]) - 2.0 * (b[t] - a[t]) + (b[t - 1] - a[t - 1]);
+        EXPECT_LT(glm::length(bend) * kRate_hz * kRate_hz, 10.0)
+            << "seed " << seed << " frame " << t;
+      }
+    }
+  }
+}
+
 /// A hand goes down on the top of a table, rests there from frame 90 to 150, and leaves.
 /// The gap between the hand's surface and the table is 1 cm.
 struct TableScene {
@@ -296,6 +346,10 @@ TEST(ConstrainOp, AHandThatRestsOnATableIsFoundAndMeetsItsSurface) {
   const double start_s = *touch->activation.start_s + touch->activation.start_duration_s;
   EXPECT_GT(start_s, 70.0 / kRate_hz);
   EXPECT_LT(*touch->activation.stop_s, 170.0 / kRate_hz);
+  const auto way = joint_way(scene.motion, HumanBone::kLeftHand);
+  const auto fade_start =
+      static_cast<std::size_t>(std::ceil(*touch->activation.start_s * kRate_hz));
+  EXPECT_LT(glm::distance(way[fade_start], way[120]), 0.06);
 
   // Adapted, the hand's surface is on the table, 1 cm lower.
   ConstrainOp adapt;

@@ -18,7 +18,7 @@
 namespace marey::edit {
 namespace {
 
-constexpr int kFrames = 120;
+constexpr int kPoseFrames = 120;
 constexpr int kAt = 60;
 constexpr double kRounding_m = 1e-12;
 
@@ -38,13 +38,13 @@ EditState posed(OpScene<PoseOp> scene, const EditState& state) {
 }
 
 TEST(PoseOp, AKeyMovesTheHandExactlyToItsPlaceAndFadesAroundIt) {
-  const EditState state = state_of(standing_motion(kFrames));
+  const EditState state = state_of(standing_motion(kPoseFrames));
   const glm::dvec3 moved_m(0.1, 0.2, 0.15);
   OpScene<PoseOp> scene = pose_key(HumanBone::kLeftHand, moved_m);
   const EditState out = posed(scene, state);
   const auto was = joint_way(state.motion, HumanBone::kLeftHand);
   const auto is = joint_way(out.motion, HumanBone::kLeftHand);
-  for (int t = 0; t < kFrames; ++t) {
+  for (int t = 0; t < kPoseFrames; ++t) {
     const auto i = static_cast<std::size_t>(t);
     const double share = retarget::smooth_step(1.0 - std::abs(t - kAt) / 30.0);
     EXPECT_LT(glm::distance(is[i], was[i] + share * moved_m), kRounding_m) << t;
@@ -52,11 +52,11 @@ TEST(PoseOp, AKeyMovesTheHandExactlyToItsPlaceAndFadesAroundIt) {
 }
 
 TEST(PoseOp, FramesOutsideTheWidthStayToTheBit) {
-  const EditState state = state_of(testing::synthetic_walk(kFrames, 60.0).motion);
+  const EditState state = state_of(testing::synthetic_walk(kPoseFrames, 60.0).motion);
   for (const HumanBone bone :
        {HumanBone::kRightHand, HumanBone::kLeftFoot, HumanBone::kHips}) {
     const EditState out = posed(pose_key(bone, {0.03, -0.04, 0.02}), state);
-    for (int t = 0; t < kFrames; ++t) {
+    for (int t = 0; t < kPoseFrames; ++t) {
       const auto i = static_cast<std::size_t>(t);
       const bool is_outside = std::abs(t - kAt) >= 30;
       EXPECT_EQ(same_pose(out.motion.poses[i], state.motion.poses[i]), is_outside) << t;
@@ -66,7 +66,7 @@ TEST(PoseOp, FramesOutsideTheWidthStayToTheBit) {
 }
 
 TEST(PoseOp, FeetStayWhileTheHipsMove) {
-  const EditState state = state_of(testing::synthetic_walk(kFrames, 60.0).motion);
+  const EditState state = state_of(testing::synthetic_walk(kPoseFrames, 60.0).motion);
   const EditState out = posed(pose_key(HumanBone::kHips, {0.02, -0.08, 0.0}), state);
   for (const HumanBone foot : {HumanBone::kLeftFoot, HumanBone::kRightFoot}) {
     const auto was = joint_way(state.motion, foot);
@@ -81,7 +81,7 @@ TEST(PoseOp, FeetStayWhileTheHipsMove) {
 }
 
 TEST(PoseOp, ARaiseThatTheLegsDoNotReachIsLoweredAndReported) {
-  const EditState state = state_of(standing_motion(kFrames));
+  const EditState state = state_of(standing_motion(kPoseFrames));
   OpScene<PoseOp> scene = pose_key(HumanBone::kHips, {0.0, 0.2, 0.0});
   const auto out = scene.run(apply_pose, state);
   ASSERT_TRUE(out);
@@ -95,7 +95,7 @@ TEST(PoseOp, ARaiseThatTheLegsDoNotReachIsLoweredAndReported) {
 }
 
 TEST(PoseOp, ATargetBeyondTheArmIsReachedByTheWholeBody) {
-  const EditState state = state_of(standing_motion(kFrames));
+  const EditState state = state_of(standing_motion(kPoseFrames));
   OpScene<PoseOp> scene = pose_key(HumanBone::kLeftHand, {0.2, 0.1, 0.7});
   const auto out = scene.run(apply_pose, state);
   ASSERT_TRUE(out) << out.error().message();
@@ -116,7 +116,7 @@ TEST(PoseOp, ATargetBeyondTheArmIsReachedByTheWholeBody) {
 }
 
 TEST(PoseOp, ATargetBeyondTheBodyIsReportedWithItsDistance) {
-  const EditState state = state_of(standing_motion(kFrames));
+  const EditState state = state_of(standing_motion(kPoseFrames));
   OpScene<PoseOp> scene = pose_key(HumanBone::kLeftHand, {0.0, 0.0, 4.0});
   ASSERT_TRUE(scene.run(apply_pose, state));
   EXPECT_TRUE(scene.has_finding("reach"));
@@ -124,7 +124,7 @@ TEST(PoseOp, ATargetBeyondTheBodyIsReportedWithItsDistance) {
 }
 
 TEST(PoseOp, KeysOneWidthApartAreASplineThroughTheKeys) {
-  const EditState state = state_of(standing_motion(kFrames));
+  const EditState state = state_of(standing_motion(kPoseFrames));
   const glm::dvec3 first(0.1, 0.1, 0.1);
   const glm::dvec3 second(0.0, 0.15, 0.2);
   const EditState out = posed(pose_key(HumanBone::kRightHand, second, 70),
@@ -139,7 +139,7 @@ TEST(PoseOp, KeysOneWidthApartAreASplineThroughTheKeys) {
 }
 
 TEST(PoseOp, DisjointKeysCommuteToTheBit) {
-  const EditState state = state_of(testing::synthetic_walk(kFrames, 60.0).motion);
+  const EditState state = state_of(testing::synthetic_walk(kPoseFrames, 60.0).motion);
   const auto a = pose_key(HumanBone::kLeftHand, {0.1, 0.0, 0.0}, 30);
   const auto b = pose_key(HumanBone::kHips, {0.0, -0.05, 0.0}, 90);
   const EditState ab = posed(b, posed(a, state));
@@ -150,7 +150,7 @@ TEST(PoseOp, DisjointKeysCommuteToTheBit) {
 }
 
 TEST(PoseOp, ARotationIsAddedInTheFrameOfTheParent) {
-  const EditState state = state_of(standing_motion(kFrames));
+  const EditState state = state_of(standing_motion(kPoseFrames));
   PoseOp op;
   op.at = AtTime{1.0};
   op.bone = HumanBone::kHead;
@@ -168,7 +168,7 @@ TEST(PoseOp, ARotationIsAddedInTheFrameOfTheParent) {
 }
 
 TEST(PoseOp, BadKeysAreRefusedWithTheirName) {
-  const EditState state = state_of(standing_motion(kFrames));
+  const EditState state = state_of(standing_motion(kPoseFrames));
   const auto refusal = [&](OpScene<PoseOp> scene) {
     const auto out = scene.run(apply_pose, state);
     EXPECT_FALSE(out);

@@ -2,11 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "edit/ops/retarget_op.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "edit/ops/constrain.h"
+#include "edit/ops/contacts.h"
+#include "edit/state/apply_contact_edits.h"
 #include "edit/state/plant_feet.h"
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -82,6 +88,92 @@ TEST(RetargetOp, FootprintsAreThoseOfTheAvatarAndSigmasAreScaled) {
   ASSERT_TRUE(adapted) << adapted.error().message();
   EXPECT_EQ(now.figure("unmet"), 0.0);
   EXPECT_LT(now.figure("displaced_mm"), 0.1);
+}
+
+/// Largest way of the ankle from its place in the first of these frames, on the floor.
+double ankle_drift_m(const Motion& motion, HumanBone foot, int first, int last) {
+  const auto way = joint_way(motion, foot);
+  double largest = 0.0;
+  for (int t = first; t <= last; ++t) {
+    const glm::dvec3 moved =
+        way[static_cast<std::size_t>(t)] - way[static_cast<std::size_t>(first)];
+    largest = std::max(largest, std::hypot(moved.x, moved.z));
+  }
+  return largest;
+}
+
+EditState noisy_walk() {
+  Motion motion = testing::synthetic_walk(kRetargetFrames, 60.0).motion;
+  add_motion_noise(motion, 3, 0.004, 0.001);
+  return state_of(std::move(motion));
+}
+
+EditState with_edits(EditState state, std::vector<ContactEdit> edits) {
+  state.contact_edits = std::move(edits);
+  detect_contacts_again(state);
+  return state;
+}
+
+EditState on_child(const EditState& state) {
+  OpScene<RetargetOp> scene = onto(testing::child());
+  auto out = scene.run(apply_retarget, state);
+  EXPECT_TRUE(out) << (out ? "" : out.error().message());
+  return out ? *std::move(out) : state;
+}
+
+TEST(RetargetOp, AContactThatWasClearedByHandIsNotHeldOnTheAvatar) {
+  const EditState state = noisy_walk();
+  const FrameRange run = state.contacts.feet[0].heel.at(1);
+  std::vector<ContactEdit> edits;
+  for (const FootPart part : {FootPart::kHeel, FootPart::kBall}) {
+    edits.push_back({ContactEdit::Kind::kClear,
+                     0,
+                     part,
+                     (run.first - 20) / 60.0,
+                     (run.last + 20) / 60.0});
+  }
+  const EditState held = on_child(state);
+  const EditState freed = on_child(with_edits(state, edits));
+  EXPECT_LT(ankle_drift_m(held.motion, HumanBone::kLeftFoot, run.first, run.last), 1e-4);
+  EXPECT_GT(ankle_drift_m(freed.motion, HumanBone::kLeftFoot, run.first, run.last), 2e-3);
+}
+
+TEST(RetargetOp, EdgesThatWereMovedByHandHoldOnTheAvatarAndAfterANewDetection) {
+  const EditState state = noisy_walk();
+  const FrameRange run = state.contacts.feet[1].heel.at(1);
+  const EditState edited = with_edits(state,
+                                      {{ContactEdit::Kind::kMoveStart,
+                                        1,
+                                        FootPart::kHeel,
+                                        run.first / 60.0,
+                                        (run.first - 4) / 60.0},
+                                       {ContactEdit::Kind::kMoveEnd,
+                                        1,
+                                        FootPart::kHeel,
+                                        run.last / 60.0,
+                                        (run.last + 3) / 60.0}});
+  const EditState avatar = on_child(edited);
+  const FrameRange longer{run.first - 4, run.last + 3};
+  EXPECT_EQ(avatar.contacts.feet[1].heel.at(1).first, longer.first);
+  EXPECT_EQ(avatar.contacts.feet[1].heel.at(1).last, longer.last);
+  const auto drift = [&](const EditState& s) {
+    return ankle_drift_m(s.motion, HumanBone::kRightFoot, longer.first, longer.last);
+  };
+  EXPECT_LT(drift(avatar), 1e-4);
+  EXPECT_GT(drift(on_child(state)), 5e-3);
+
+  ContactsOp detect;
+  detect.detect = true;
+  OpScene<ContactsOp> scene(detect);
+  const auto again = scene.run(apply_contacts, avatar);
+  ASSERT_TRUE(again);
+  // Detection may find other edges on the avatar; those of the edits are reached again if
+  // the found edge is within reach of them.
+  bool has_edges = false;
+  for (const FrameRange& heel : again->contacts.feet[1].heel) {
+    has_edges = has_edges || (heel.first == longer.first && heel.last == longer.last);
+  }
+  EXPECT_TRUE(has_edges);
 }
 
 TEST(RetargetOp, AnAvatarThatWasNotReadIsRefusedWithTheNearestName) {

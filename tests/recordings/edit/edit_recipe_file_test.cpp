@@ -266,6 +266,23 @@ TEST(EditRecipeFile, ReadsAConstraintWithTheWordsOfItsFile) {
   EXPECT_EQ(goal.p_in_world, glm::dvec3(0.4, 1.1, 0.6));
 }
 
+TEST(EditRecipeFile, ReadsChangesOfConstraints) {
+  const auto op = op_of<ConstrainOp>(
+      "\"constrain@1\"\ndetect = \"supports\"\nchanges = [{name = \"found leftFoot flat "
+      "2\", "
+      "start_s = 1.25, stop = \"left.toe_off[1]\", stop_duration_s = 0.1}, "
+      "{name = \"grip\", position_m = [0.5, 1, 0]}]\n");
+  EXPECT_EQ(op.detect, DetectConstraints::kSupports);
+  ASSERT_EQ(op.changes.size(), 2U);
+  const ConstraintChange& first = op.changes[0];
+  EXPECT_EQ(first.name, "found leftFoot flat 2");
+  EXPECT_EQ(first.start, Moment(AtTime{1.25}));
+  EXPECT_EQ(first.stop, Moment(AtAnnotation{"left.toe_off", 1}));
+  EXPECT_FALSE(first.start_duration_s || first.p_in_world);
+  EXPECT_EQ(first.stop_duration_s, 0.1);
+  EXPECT_EQ(op.changes[1].p_in_world, glm::dvec3(0.5, 1.0, 0.0));
+}
+
 TEST(EditRecipeFile, ReadsEveryTypeOfConstraint) {
   const auto goal_of = [](const std::string& type, const std::string& keys) {
     const auto op = op_of<ConstrainOp>(

@@ -232,11 +232,28 @@ void fill_constraint(RecipeDice& dice, ConstrainOp& op) {
   }
 }
 
+ConstraintChange random_change(RecipeDice& dice, int number) {
+  ConstraintChange out{"found " + dice.word() + " " + std::to_string(number)};
+  if (dice.chance()) {
+    out.start = AtTime{dice.between(0.0, 2.0)};
+    if (dice.chance()) out.stop = AtTime{dice.between(2.0, 4.0)};
+  } else {
+    out.stop = dice.maybe_moment();
+  }
+  out.start_duration_s = dice.maybe(0.0, 0.5);
+  out.stop_duration_s = dice.maybe(0.0, 0.5);
+  out.p_in_world = dice.place();
+  return out;
+}
+
 void fill(RecipeDice& dice, ConstrainOp& op) {
   op.adapt = dice.chance();
   if (dice.chance()) {
     fill_constraint(dice, op);
     return;
+  }
+  for (int i = 0; dice.chance() && i < 3; ++i) {
+    op.changes.push_back(random_change(dice, i));
   }
   op.detect = dice.chance() ? DetectConstraints::kTouches : DetectConstraints::kSupports;
   if (op.detect != DetectConstraints::kTouches) return;
