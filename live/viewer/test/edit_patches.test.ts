@@ -296,7 +296,7 @@ test('handles of instants stay between their neighbours', () => {
 
 // --- Constraints and annotations ---
 
-test('a constraint of the recipe gets other times, others do not', () => {
+test('a constraint gets other times: in its operation, or by hand if it was found', () => {
   const constraint = {type: 'Distance', name: 'rail', segment: 'rightHand', start: 'right.strike',
     stop_s: 2.5, position_m: [0, 1, 2]};
   const seen = view([{do: 'constrain@1', constraint}]);
@@ -305,7 +305,18 @@ test('a constraint of the recipe gets other times, others do not', () => {
     JSON.parse(JSON.stringify(op))));
   assert.deepEqual(after(seen, moveConstraintTime(seen, 'rail', null, 2))[0],
     {do: 'constrain@1', constraint: {...constraint, stop_s: 2}});
-  assert.equal(moveConstraintTime(seen, 'found left foot', 0.5, null)(seen.document.ops), null);
+  const byHand = (name: string, ...entries: object[]): object => ({do: 'constrain@1',
+    changes: entries.map((entry) => ({name, ...entry})), adapt: true});
+  assert.deepEqual(after(seen, moveConstraintTime(seen, 'found left foot', 0.5, null))[1],
+    byHand('found left foot', {start_s: 0.5}));
+  const detected = view([{do: 'constrain@1', detect: 'supports', changes: [
+    {name: 'found left foot', start_s: 0.5}]}, {do: 'tag@1', text: 'a'}]);
+  assert.deepEqual(after(detected, moveConstraintTime(detected, 'left foot', null, 1))[0],
+    {do: 'constrain@1', detect: 'supports', changes: [
+      {name: 'found left foot', start_s: 0.5, stop_s: 1}]});
+  assert.deepEqual(after(detected, moveConstraintTime(detected, 'found right foot', 2, null))[0],
+    {do: 'constrain@1', detect: 'supports', changes: [{name: 'found left foot', start_s: 0.5},
+      {name: 'found right foot', start_s: 2}]});
   const spanned = view([{do: 'constrain@1', from_s: 1, to_s: 2, constraint: {name: 'a'}},
     {do: 'cut@1', from_s: 0.5}]);
   assert.deepEqual(after(spanned, moveConstraintTime(spanned, 'a', 0.7, null))[0],

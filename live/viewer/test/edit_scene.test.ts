@@ -218,13 +218,18 @@ test('legs are measured across joints between them', () => {
   assert.equal(legLength_m(joints.slice(0, 5)), null);
 });
 
-test('only a constraint whose place is in the recipe can be dragged', () => {
+test('a constraint is dragged in its operation, or by hand if it was found', () => {
   const ops = [op({do: 'cut@1'}), op({do: 'constrain@1', adapt: true, constraint: {
     type: 'Distance', name: 'rail', segment: 'leftHand', position_m: [1, 1, 1], stop_s: 2}})];
   assert.deepEqual(steps(constraintChange(found('rail'), [0, 0.1, -0.0501], ops, same), ops),
     [{replace: 1, op: {do: 'constrain@1', adapt: true, constraint: {type: 'Distance',
       name: 'rail', segment: 'leftHand', position_m: [1, 1.1, 0.95], stop_s: 2}}}]);
-  assert.equal(constraintChange(found('found leftFoot flat 1'), [0, 0, 0], ops, same), null);
+  const stance = found('found leftFoot flat 1');
+  assert.deepEqual(steps(constraintChange(stance, [0, 0.1, 0], ops, same), ops), [{insert: 2,
+    op: {do: 'constrain@1', changes: [{name: 'found leftFoot flat 1', position_m: stance.p_in_world!
+      .map((x, k) => x + [0, 0.1, 0][k])}], adapt: true}}]);
+  assert.equal(constraintChange({...stance, p_in_world: null}, [0, 0, 0], ops, same), null);
+  assert.equal(constraintChange({...stance, draggable: false}, [0, 0, 0], ops, same), null);
   // It was removed meanwhile.
   assert.equal(constraintChange(found('rail'), [0, 1, 0], ops, same)!([]), null);
   // An avatar with legs of half the length.

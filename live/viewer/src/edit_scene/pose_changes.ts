@@ -4,6 +4,7 @@
 // Changes of the recipe by handles of the body: keys of a pose and constraints.
 
 import type {Change} from '../edit/edit_document';
+import {stepsForFound} from '../edit/found_constraints';
 import {placeIndex} from '../edit/edit_view';
 import {opToChange, rounded, roundedVector} from './op_to_change';
 import type {EditConstraintWords, OpKeys, OpValue, OpWords} from '../protocol/edit_protocol';
@@ -111,16 +112,20 @@ export interface ShownBody {
   scale: number;
 }
 
-/** Returns the change that moves a constraint of the shown motion by `moved_m`; null if its
- *  place is not in the recipe. Operations after its own may have moved it, so that only the
- *  difference counts. A retarget after it has scaled it. */
+/** Returns the change that moves a constraint of the shown motion by `moved_m`; null if it has no
+ *  place. A found constraint gets its new place. For one of the recipe only the difference
+ *  counts, as operations after its own may have moved it; a retarget after it has scaled it. */
 export function constraintChange(constraint: EditConstraintWords, moved_m: Vector,
   ops: readonly OpWords[], {until, scale}: ShownBody): Change | null {
   const own = (op: OpWords): boolean => {
     const inline = inlineConstraint(op);
     return inline?.name === constraint.id && isVector(inline.position_m);
   };
-  if (!ops.some(own)) return null;
+  if (!ops.some(own)) {
+    const {id, p_in_world: place, draggable} = constraint;
+    if (!place || !draggable || ops.some((op) => inlineConstraint(op)?.name === id)) return null;
+    return (now) => stepsForFound(now, until, id, {position_m: sum(place, moved_m)});
+  }
   return (now) => {
     const i = now.findIndex(own);
     const inline = i < 0 ? null : inlineConstraint(now[i]);

@@ -6,6 +6,7 @@
 
 import type {Change} from '../edit/edit_document';
 import {opName} from '../edit/edit_document';
+import {stepsForFound} from '../edit/found_constraints';
 import {insertIndex} from '../edit/edit_view';
 import type {Place, Shown, ShownView} from './op_times';
 import {
@@ -192,14 +193,27 @@ export function opOfConstraint(shown: Shown, id: string): number {
   return -1;
 }
 
-/** Changes the start or stop of a constraint of the recipe; null: not this one. */
+/** Returns whether no operation of the recipe states this constraint itself. */
+export function isFound(shown: Shown, id: string): boolean {
+  return !shown.ops.some(({keys}) => tableAt(keys, ['constraint'])?.name === id);
+}
+
+/** Changes the start or stop of a constraint: in its own operation, or of a found one by hand.
+ *  null: other times than those of its operation are shown. */
 export function moveConstraintTime(view: ShownView, id: string, start_s: number | null,
   stop_s: number | null): Change {
   return changeOf(view, (shown) => {
+    const {rate_hz} = shown.output;
     const index = opOfConstraint(shown, id);
+    if (index < 0 && isFound(shown, id)) {
+      let entry: Record<string, OpValue> = {};
+      for (const [key, time_s] of [['start', start_s], ['stop', stop_s]] as const) {
+        if (time_s !== null) entry = withInstant(entry, key, Math.max(time_s, 0), rate_hz);
+      }
+      return stepsForFound(shown.ops, shown.until, id, entry);
+    }
     const by_s = index < 0 ? null : offset_s(shown, index);
     if (by_s === null) return null;
-    const {rate_hz} = shown.output;
     let {keys} = shown.ops[index];
     let table = tableAt(keys, ['constraint'])!;
     for (const [key, common, time_s] of [['start', 'from', start_s], ['stop', 'to', stop_s]] as

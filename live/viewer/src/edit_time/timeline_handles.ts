@@ -11,7 +11,7 @@ import {opHandles} from './op_handles';
 import type {Shown, ShownView} from './op_times';
 import {nextOp, rounded, shownBy, shownFrame} from './op_times';
 import {
-  moveAnnotation, moveConstraintTime, moveSpanOf, opOfAnnotation, opOfConstraint, trim,
+  isFound, moveAnnotation, moveConstraintTime, moveSpanOf, opOfAnnotation, opOfConstraint, trim,
 } from './patches';
 import type {
   AnnotationWords, EditConstraintWords, EditContactWords,
@@ -141,7 +141,7 @@ function contactHandles(view: ShownView, shown: Shown, contact: EditContactWords
 
 function constraintHandles(view: ShownView, shown: Shown, words: EditConstraintWords,
   row: number): Handle[] {
-  if (opOfConstraint(shown, words.id) < 0) return [];
+  if (opOfConstraint(shown, words.id) < 0 && !isFound(shown, words.id)) return [];
   const {rate_hz, frames} = shown.output;
   const start = (words.start_s ?? 0) * rate_hz;
   const stop = (words.stop_s ?? (frames - 1) / rate_hz) * rate_hz;

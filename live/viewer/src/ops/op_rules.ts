@@ -17,7 +17,7 @@ const MAX_OP_BYTES = 15_000;
 const EXCLUSIVE: Record<string, readonly (readonly string[])[]> = {
   retime: [['knots'], ['speed'], ['duration_s']],
   path: [['points_xz_m'], ['turn_deg', 'length', 'straight']],
-  constrain: [['constraint'], ['detect', 'objects']],
+  constrain: [['constraint'], ['detect', 'objects', 'changes']],
 };
 
 /** Operations that need at least one of these fields. */
@@ -27,7 +27,7 @@ const NEED_ONE: Record<string, readonly string[]> = {
   offset: ['rotation', 'moved_m'],
   retime: ['knots', 'speed', 'duration_s', 'rate_hz'],
   contacts: ['detect', 'edits'],
-  constrain: ['detect', 'constraint', 'adapt'],
+  constrain: ['detect', 'constraint', 'changes', 'adapt'],
 };
 
 export const NEW_OBJECT: Keys =

@@ -160,6 +160,11 @@ const CONTACT: OpSchema[] = [
         vector('min_m', 'Lower corner', 'xyz', need),
         vector('max_m', 'Upper corner', 'xyz', need)], {help: 'Boxes that hands can touch'}),
       {...plain('boolean', 'constraint', 'Constraint'), kind: 'constraint'},
+      rows('changes', 'Changes by hand', 'change', [text('name', 'Name', need),
+        plain('instant', 'start', 'Start'), plain('instant', 'stop', 'Stop'),
+        number('start_duration_s', 'Fade-in', LIMITS.time),
+        number('stop_duration_s', 'Fade-out', LIMITS.time),
+        vector('position_m', 'Position', 'xyz')]),
       plain('boolean', 'adapt', 'Adapt the motion now', {default: false}),
     ], common: ['span', 'blend']},
   {name: 'balance', title: 'Balance', help: 'Keeps the centre of mass over the feet', fields: [
