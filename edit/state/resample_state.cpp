@@ -19,7 +19,7 @@
 namespace marey::edit {
 namespace {
 
-/// Tolerance of the frames that are asked for. [frames]
+/// Tolerance at the ends of the motion. [frames]
 constexpr double kBeyondEnd = 1e-9;
 
 // A posture that moved by more than this was not captured. [m]
