@@ -134,7 +134,7 @@ ChannelFilter::ChannelFilter(const FilterOp& op,
   if (op.method == FilterMethod::kButterworth) {
     choose_butterworth(channels, pieces_);
   } else {
-    choose_spline(channels, weights);
+    choose_joint_spline(channels, weights);
   }
 }
 
@@ -159,17 +159,46 @@ void ChannelFilter::choose_spline(std::span<const std::vector<double>> channels,
                                       rate_hz_);
     if (penalty) found.push_back({*penalty, static_cast<double>(piece.count)});
   }
-  if (found.empty() && pieces_.size() > 1 && !has_gaps_) {
+  if (found.empty() && pieces_.size() > 1) {
     const auto penalty = best_penalty(
         varying_part(channels, 0, channels[0].size()), weights, options, rate_hz_);
     if (penalty) found.push_back({*penalty, 1.0});
   }
-  if (found.empty()) return;
-  const double penalty = weighted_median(std::move(found));
+  if (!found.empty()) set_spline(weighted_median(std::move(found)), weights);
+}
+
+void ChannelFilter::choose_joint_spline(std::span<const std::vector<double>> channels,
+                                        std::span<const double> weights) {
+  SmoothingChannels all;
+  std::vector<std::size_t> group;
+  for (const Piece& piece : pieces_) {
+    if (piece.count < kMinSmoothingSamples) continue;
+    all.splines.emplace_back(
+        piece.count,
+        SplineOptions{op_.order},
+        weights.empty() ? weights : weights.subspan(piece.first, piece.count));
+    for (const auto& channel : channels) {
+      const auto part = std::span(channel).subspan(piece.first, piece.count);
+      if (is_straight_channel(part)) continue;
+      group.push_back(all.samples.size());
+      all.samples.push_back(part);
+      all.spline_of.push_back(all.splines.size() - 1);
+    }
+  }
+  if (group.empty()) return;
+  const std::vector<std::vector<std::size_t>> groups{group};
+  set_spline(choose_penalties(all, groups).groups[0], weights);
+}
+
+void ChannelFilter::set_spline(double penalty, std::span<const double> weights) {
+  const SplineOptions options{op_.order};
   cutoff_hz_ = half_power_hz(penalty, rate_hz_, options);
   for (Piece& piece : pieces_) {
     if (piece.count < min_piece(op_)) continue;
-    piece.spline.emplace(piece.count, options, part_of(piece.first, piece.count));
+    piece.spline.emplace(
+        piece.count,
+        options,
+        weights.empty() ? weights : weights.subspan(piece.first, piece.count));
     piece.spline->set_penalty(penalty);
   }
 }

@@ -32,8 +32,10 @@ class ChannelFilter {
                 std::span<const int> impacts,
                 double rate_hz);
   /// Chooses the filter for a group with gaps. `seen` are the pieces between the gaps;
-  /// they ascend and do not touch. The filter is the median over pieces of at least 20
-  /// samples, by length. Preconditions as above; the pieces lie within the channels.
+  /// they ascend and do not touch. Pieces of at least 20 samples choose the filter: a
+  /// spline's penalty suits all of them jointly (GroupRule::kJoint), Winter's cut-off is
+  /// their median, by length and variance. Preconditions as above; the pieces lie within
+  /// the channels.
   ChannelFilter(const FilterOp& op,
                 std::span<const std::vector<double>> channels,
                 std::span<const double> weights,
@@ -65,6 +67,9 @@ class ChannelFilter {
 
   void choose_spline(std::span<const std::vector<double>> channels,
                      std::span<const double> weights);
+  void choose_joint_spline(std::span<const std::vector<double>> channels,
+                           std::span<const double> weights);
+  void set_spline(double penalty, std::span<const double> weights);
   void choose_butterworth(std::span<const std::vector<double>> channels,
                           std::span<const Piece> parts);
 
