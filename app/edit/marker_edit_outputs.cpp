@@ -65,16 +65,8 @@ struct KeptContent {
 };
 
 KeptContent kept_content(const MarkerEditFiles& files, const edit::MarkerState& state) {
-  using recordings::Evidence;
   if (!files.c3d) return {std::nullopt, "the source is another recipe"};
   if (state.is_moved) return {std::nullopt, "an operation moved the markers"};
-  const auto is_stated = [](Evidence evidence) {
-    return evidence == Evidence::kFile || evidence == Evidence::kConvention ||
-           evidence == Evidence::kPlates;
-  };
-  if (!is_stated(files.axes.up_from) || !is_stated(files.axes.unit_from)) {
-    return {std::nullopt, "the file does not state its axes and unit correctly"};
-  }
   const auto& frames = state.lineage.frames;
   const double first = frames.front().source_frame;
   bool is_part =
@@ -136,6 +128,7 @@ class MarkerWriter {
     if (!kept.first) return out;
     out.source = files_.c3d;
     out.source_first = kept.first;
+    out.state_axes = true;
     return out;
   }
 

@@ -136,10 +136,11 @@ class MarkerFilter {
     for (std::size_t m = 0; m < state.tracks.markers(); ++m) {
       filter_one(state.tracks, m, report);
     }
-    report.figures.emplace_back("displaced_mm", 1e3 * largest_m_);
+    report.figures.emplace_back("displaced_mm", 1e3 * largest_.largest_m);
     report.figures.emplace_back("filtered_markers", filtered_);
     report.figures.emplace_back("left_samples", static_cast<double>(left_.samples));
     report_left(report);
+    report_outlier(state.tracks, report);
   }
 
  private:
@@ -176,7 +177,10 @@ class MarkerFilter {
       }
     }
     ++filtered_;
-    largest_m_ = std::max(largest_m_, moved.largest_m);
+    if (moved.largest_m > largest_.largest_m) {
+      largest_ = moved;
+      largest_marker_ = marker;
+    }
     const double noise_m =
         removed_rms(own.values, filtered, pieces) / filter.removed_noise_share();
     const auto add = [&](const char* figure, double value) {
@@ -239,12 +243,28 @@ class MarkerFilter {
          "fill the gaps first with marey repair"});
   }
 
+  /// Noise does not move a marker so far: it jumps, or it was exchanged with another.
+  void report_outlier(const MarkerTracks& tracks, OpReport& report) const {
+    constexpr double kOutlier_m = 0.03;
+    if (largest_.largest_m <= kOutlier_m) return;
+    report.findings.push_back(
+        fair_finding("outlier",
+                     tracks.labels[largest_marker_],
+                     format_text("the filter moved it by %.0f mm at %.2f s, more than "
+                                 "noise does",
+                                 1e3 * largest_.largest_m,
+                                 static_cast<double>(largest_.frame) / tracks.rate.hz),
+                     "look for jumps and exchanged markers with marey repair first")
+            .measured(1e3 * largest_.largest_m, 1e3 * kOutlier_m, "mm"));
+  }
+
   const FilterOp& op_;
   const OpWeights& weights_;
   MarkerState& out_;
   LeftMarkers left_;
   int filtered_ = 0;
-  double largest_m_ = 0.0;
+  Displacement largest_;
+  std::size_t largest_marker_ = 0;
 };
 
 }  // namespace

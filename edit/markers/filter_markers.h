@@ -20,7 +20,8 @@ namespace marey::edit {
 /// per coordinate, from the removed part), LABEL_removed_rms_mm,
 /// LABEL_removed_max_mm and LABEL_removed_max_s; for all of them displaced_mm (largest
 /// displacement), filtered_markers, left_samples. Findings: markers and pieces that are
-/// left as they are. Errors (bad input): check_filter()'s; resolve_span()'s; groups.
+/// left as they are; a displacement above 30 mm. Errors (bad input): check_filter()'s;
+/// resolve_span()'s; groups.
 [[nodiscard]] Result<MarkerState> filter_markers(const FilterOp& op,
                                                  const MarkerOpContext& context,
                                                  const MarkerState& state,

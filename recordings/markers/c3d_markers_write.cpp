@@ -45,6 +45,18 @@ FileAxis right_of(FileAxis up) {
   return is_x ? FileAxis::kPlusY : FileAxis::kPlusX;
 }
 
+void put_unit(C3dInfo& info, const FileAxes& axes) {
+  put_parameter(info.groups, "POINT", text_parameter("UNITS", axes.unit));
+}
+
+void put_up(C3dInfo& info, const FileAxes& axes) {
+  put_parameter(info.groups,
+                "POINT",
+                text_parameter("X_SCREEN", std::string(name(right_of(axes.up)))));
+  put_parameter(
+      info.groups, "POINT", text_parameter("Y_SCREEN", std::string(name(axes.up))));
+}
+
 C3dInfo fresh_info(const MarkerFile& markers, const FileAxes& axes) {
   const MarkerTracks& tracks = markers.tracks;
   C3dInfo info;
@@ -59,12 +71,8 @@ C3dInfo fresh_info(const MarkerFile& markers, const FileAxes& axes) {
                          max_sigma(tracks, axes) / 255.0,
                          1e-6 * axes.per_metre});
   put_texts(info.groups, "POINT", "LABELS", tracks.labels);
-  put_parameter(info.groups, "POINT", text_parameter("UNITS", axes.unit));
-  put_parameter(info.groups,
-                "POINT",
-                text_parameter("X_SCREEN", std::string(name(right_of(axes.up)))));
-  put_parameter(
-      info.groups, "POINT", text_parameter("Y_SCREEN", std::string(name(axes.up))));
+  put_unit(info, axes);
+  put_up(info, axes);
   put_parameter(info.groups, "ANALOG", count_parameter("USED", 0));
   put_parameter(info.groups, "FORCE_PLATFORM", count_parameter("USED", 0));
   put_parameter(info.groups, "MANUFACTURER", text_parameter("SOFTWARE", "marey"));
@@ -109,8 +117,8 @@ void replace_events(C3dInfo& info, const std::vector<MarkerEvent>& events) {
 /// Writes the frames of the source file with the changed markers.
 class SourceCopy {
  public:
-  SourceCopy(const MarkerFile& markers, std::optional<std::size_t> first, bool trust_all)
-      : markers_(markers), first_(first), trust_all_(trust_all) {}
+  SourceCopy(const MarkerFile& markers, const MarkerWriteOptions& options, bool trust_all)
+      : markers_(markers), options_(options), trust_all_(trust_all) {}
 
   Status write(C3dReader reader,
                const std::filesystem::path& path,
@@ -129,7 +137,7 @@ class SourceCopy {
     Result<C3dWriter> writer = C3dWriter::create(path, to);
     if (!writer) return writer.error();
     const bool widened = to.numbers != from.numbers;
-    const std::size_t skipped = first_.value_or(0);
+    const std::size_t skipped = options_.source_first.value_or(0);
     const auto count = static_cast<std::size_t>(to.frames);
     C3dFrame frame;
     for (std::size_t f = 0; f < skipped + count; ++f) {
@@ -147,17 +155,22 @@ class SourceCopy {
  private:
   [[nodiscard]] bool has_frames(std::size_t source_frames) const {
     const std::size_t frames = markers_.tracks.frames();
-    if (!first_) return frames == source_frames;
-    return *first_ <= source_frames && frames <= source_frames - *first_;
+    const auto& first = options_.source_first;
+    if (!first) return frames == source_frames;
+    return *first <= source_frames && frames <= source_frames - *first;
   }
 
   [[nodiscard]] C3dInfo target_info(const C3dInfo& from) const {
     C3dInfo to = from;
-    if (first_) {
-      to.first_frame += static_cast<int>(*first_);
+    if (options_.source_first) {
+      to.first_frame += static_cast<int>(*options_.source_first);
       to.frames = static_cast<std::int64_t>(markers_.tracks.frames());
     }
     if (markers_.events != events_of(from)) replace_events(to, markers_.events);
+    if (options_.state_axes) {
+      if (markers_.axes.up_from != Evidence::kFile) put_up(to, markers_.axes);
+      if (markers_.axes.unit_from != Evidence::kFile) put_unit(to, markers_.axes);
+    }
     // It would refer to a section that is not written.
     if (has_rotations(from)) {
       std::erase_if(to.groups, [](const C3dGroup& g) { return g.name == "ROTATION"; });
@@ -190,7 +203,7 @@ class SourceCopy {
   }
 
   const MarkerFile& markers_;
-  std::optional<std::size_t> first_;
+  const MarkerWriteOptions& options_;
   bool trust_all_;
 };
 
@@ -210,7 +223,7 @@ Status write_c3d_markers(const std::filesystem::path& path,
   if (!trust_all) return trust_all.error();
   Result<C3dReader> reader = C3dReader::open(*options.source);
   if (!reader) return reader.error();
-  return SourceCopy(markers, options.source_first, *trust_all)
+  return SourceCopy(markers, options, *trust_all)
       .write(*std::move(reader), path, options.source->string());
 }
 

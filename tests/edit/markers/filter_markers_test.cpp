@@ -219,6 +219,19 @@ TEST(FilterMarkers, FilledSamplesCountLess) {
   EXPECT_LT(made_error_m(out->tracks, 1), 0.9 * made_error_m(trusted->tracks, 1));
 }
 
+TEST(FilterMarkers, ReportsAMarkerThatJumps) {
+  MarkerState state = noisy_state(12);
+  MarkerScene scene{FilterOp{}};
+  ASSERT_TRUE(scene.run(state));
+  EXPECT_FALSE(scene.has_finding("outlier"));
+  state.tracks.at(180, 3)->p_in_world.x += 0.5;
+  ASSERT_TRUE(scene.run(state));
+  ASSERT_TRUE(scene.has_finding("outlier"));
+  const Finding& finding = scene.report.findings.back();
+  EXPECT_EQ(finding.where, "RKNE");
+  EXPECT_NE(finding.cause.find("at 1.50 s"), std::string::npos) << finding.cause;
+}
+
 TEST(FilterMarkers, RefusesGroupsAndWrongCutoffs) {
   const MarkerState state = noisy_state(10);
   MarkerScene groups{FilterOp{}};

@@ -71,6 +71,28 @@ TEST(C3dPart, RefusesFramesThatTheSourceDoesNotHave) {
   EXPECT_FALSE(write_markers(folder / "b.c3d", part_of(*read, 1, 3), options));
 }
 
+TEST(C3dPart, StatesAxesThatWereEstimated) {
+  const testing::ScratchFolder folder;
+  C3dInfo info = example_info(C3dProcessor::kIntel, C3dNumbers::kReal);
+  put_texts(info.groups, "POINT", "X_SCREEN", {""});
+  put_texts(info.groups, "POINT", "Y_SCREEN", {""});
+  write_frames(folder / "a.c3d", info, example_frames(info));
+  auto read = read_markers(folder / "a.c3d");
+  ASSERT_TRUE(read) << read.error().message();
+  ASSERT_NE(read->axes.up_from, Evidence::kFile);
+  MarkerWriteOptions options;
+  options.source = folder / "a.c3d";
+  ASSERT_TRUE(write_markers(folder / "b.c3d", *read, options));
+  EXPECT_NE(read_markers(folder / "b.c3d")->axes.up_from, Evidence::kFile);
+  options.state_axes = true;
+  ASSERT_TRUE(write_markers(folder / "b.c3d", *read, options));
+  const auto again = read_markers(folder / "b.c3d");
+  ASSERT_TRUE(again) << again.error().message();
+  EXPECT_EQ(again->axes.up_from, Evidence::kFile);
+  EXPECT_EQ(again->axes.up, read->axes.up);
+  EXPECT_EQ(again->tracks.at(2, 0)->p_in_world, read->tracks.at(2, 0)->p_in_world);
+}
+
 TEST(C3dPart, ReplacesEventsThatChanged) {
   const testing::ScratchFolder folder;
   C3dInfo info = example_info(C3dProcessor::kIntel, C3dNumbers::kReal);
