@@ -162,7 +162,8 @@ class MarkerFilter {
     filter.run(filtered);
     std::vector<FrameRange> pieces;
     for (const FrameRange& run : runs) {
-      const auto length = static_cast<std::size_t>(run.last - run.first + 1);
+      const int frames = run.last - run.first + 1;
+      const auto length = static_cast<std::size_t>(frames);
       if (length >= ChannelFilter::min_piece(op_)) {
         pieces.push_back(run);
       } else {

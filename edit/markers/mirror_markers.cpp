@@ -99,8 +99,8 @@ Result<MarkerState> mirror_markers(const MirrorOp& /*op*/,
     curve.name = mirrored_name(curve.name);
   }
   touch(out.lineage, {0, out.frame_count() - 1}, context.index);
-  report.figures.emplace_back(
-      "pairs", static_cast<double>((counterpart.size() - alone.size()) / 2));
+  const std::size_t pairs = (counterpart.size() - alone.size()) / 2;
+  report.figures.emplace_back("pairs", static_cast<double>(pairs));
   if (!alone.empty()) {
     report.findings.push_back({Severity::kNote,
                                "no_counterpart",
