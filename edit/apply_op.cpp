@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "edit/apply_op.h"
 
-#include <string>
 #include <utility>
 #include <variant>
 
@@ -24,6 +23,7 @@
 #include "edit/ops/retarget_op.h"
 #include "edit/ops/retime.h"
 #include "edit/ops/splice.h"
+#include "edit/state/op_error.h"
 
 namespace marey::edit {
 namespace {
@@ -127,23 +127,11 @@ Result<std::vector<EditState>> apply_op(const OpContext& context,
                                         const EditState& state,
                                         OpReport& report) {
   report.index = context.index;
-  const std::string op_name(name(context.op.parameters));
-  report.name = op_name + "@" + std::to_string(context.op.version);
-  if (context.op.version != kEditOpVersion) {
-    return bad_input(report.name,
-                     "is not a version that this marey has",
-                     "write " + op_name + "@" + std::to_string(kEditOpVersion) +
-                         ", or use the version of marey that the recipe was made with");
-  }
+  report.name = versioned_name(context.op);
+  if (const Status ok = check_version(context.op); !ok) return ok.error();
   auto made = std::visit(OpApplier{context, state, report}, context.op.parameters);
   if (made) return made;
-  Error error = made.error();
-  if (error.where.empty() || error.where == op_name) {
-    error.where = report.name;
-  } else if (error.where != report.name) {
-    error.where = report.name + ": " + error.where;
-  }
-  return error;
+  return in_operation(made.error(), context.op);
 }
 
 }  // namespace marey::edit

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "edit/apply_op.h"
+#include "edit/state/op_error.h"
 
 #include "core/base/assert.h"
 
@@ -33,13 +34,6 @@ RenderStart start_of(const EditRecipe& recipe,
   RenderStart out;
   out.result.outputs.push_back(source->second);
   return out;
-}
-
-Error at_line(Error error, const EditOp& op, std::size_t index, const std::string& file) {
-  const std::string place =
-      op.line > 0 ? std::to_string(op.line) : "operation " + std::to_string(index + 1);
-  error.where = (file.empty() ? "" : file + ":") + place + ": " + error.where;
-  return error;
 }
 
 Status apply_to_all(const OpContext& context, Rendered& result) {
@@ -107,7 +101,7 @@ Result<Rendered> render(const EditRecipe& recipe,
     if (!op.off) {
       const OpContext context{op, static_cast<int>(i), inputs};
       if (const Status ok = apply_to_all(context, out); !ok) {
-        return at_line(ok.error(), op, i, options.recipe_file);
+        return at_recipe_line(ok.error(), op, i, options.recipe_file);
       }
     }
     if (options.cache != nullptr && !options.keys.empty()) {

@@ -12,7 +12,7 @@ set(reconstruct_LAYERS
 set(retarget_LAYERS
   base constraints bones body character contacts feet balance hands motion
   adapt/plan adapt/kernel adapt)
-set(edit_LAYERS signal state find filter splice ops .)
+set(edit_LAYERS signal state find filter splice ops markers .)
 set(recordings_LAYERS base body edit takes motion gltf markers print session)
 set(live_LAYERS udp vmc page web)
 set(app_LAYERS

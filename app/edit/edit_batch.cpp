@@ -12,6 +12,8 @@
 
 #include <fnmatch.h>
 
+#include "app/edit/marker_edit_run.h"
+#include "app/shell/findings.h"
 #include "core/base/format_text.h"
 #include "core/base/in_quotes.h"
 #include "core/base/parallel.h"
@@ -48,12 +50,33 @@ void expand(const fs::path& folder,
   }
 }
 
-/// Result of one motion.
+/// Result of one motion or of the markers of one file.
 struct BatchRow {
   std::vector<EditFigures> figures;
-  std::vector<Finding> findings;
+  std::vector<Finding> findings;  ///< Figures above their limit.
+  std::vector<Finding> lost;      ///< Content of a source that the results lack.
   std::optional<Error> error;
+  bool has_markers = false;
 };
+
+BatchRow edit_one_marker_file(EditRecipe recipe,
+                              const ReadEditOptions& read,
+                              const EditOutput& output) {
+  BatchRow row;
+  row.has_markers = true;
+  auto run = run_marker_edit(std::move(recipe), {read});
+  if (!run) {
+    row.error = run.error();
+    return row;
+  }
+  row.figures = run->figures;
+  row.findings = assess_edit(run->recipe, run->figures);
+  row.lost = assess_marker_content(run->recipe, run->files, run->rendered, output);
+  const auto written =
+      write_marker_edit(run->recipe, run->files, run->rendered, run->figures, output);
+  if (!written) row.error = written.error();
+  return row;
+}
 
 BatchRow edit_one(EditRecipe recipe,
                   const fs::path& recipe_file,
@@ -63,8 +86,14 @@ BatchRow edit_one(EditRecipe recipe,
   recipe.sources.front().path = fs::absolute(motion, failed).string();
   recipe.sources.front().sha256.clear();
   BatchRow row;
-  auto files =
-      read_edit_files(recipe, {recipe_file.parent_path(), recipe_file.string(), false});
+  const ReadEditOptions read{recipe_file.parent_path(), recipe_file.string(), false};
+  const bool has_markers = edits_markers(recipe, read);
+  if (const Status ok = check_output_formats(output, has_markers); !ok) {
+    row.error = ok.error();
+    return row;
+  }
+  if (has_markers) return edit_one_marker_file(std::move(recipe), read, output);
+  auto files = read_edit_files(recipe, read);
   if (!files) {
     row.error = files.error();
     return row;
@@ -107,15 +136,16 @@ std::string csv_of(const std::vector<fs::path>& motions,
     }
     for (const EditFigures& f : rows[i].figures) {
       out += csv_text(f.name) + "," + source +
-             format_text(",%d,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%d,",
-                         f.frames,
-                         f.duration_s,
-                         f.slide_mm,
-                         f.slide_cm_per_s,
-                         f.displaced_mm,
-                         f.acceleration_ratio,
-                         f.constraint_mm,
-                         f.inferred_frames);
+             format_text(",%d,%.6g,", f.frames, f.duration_s);
+      // Figures that need a body are empty for markers.
+      if (!rows[i].has_markers) {
+        out += format_text("%.6g,%.6g", f.slide_mm, f.slide_cm_per_s);
+      } else {
+        out += ",";
+      }
+      out += format_text(",%.6g,%.6g,", f.displaced_mm, f.acceleration_ratio);
+      if (!rows[i].has_markers) out += format_text("%.6g", f.constraint_mm);
+      out += format_text(",%d,", f.inferred_frames);
       if (!rows[i].findings.empty()) out += csv_text(rows[i].findings.front().message());
       out += "\n";
     }
@@ -201,6 +231,7 @@ Exit run_edit_batch(const EditRecipe& recipe,
       console.fail(error);
     }
     for (const Finding& finding : rows[i].findings) console.fail(finding.error());
+    print_warnings(console, rows[i].lost);
     if (rows[i].error || !rows[i].findings.empty()) ++failed;
   }
   const fs::path table = output.out / "edit.csv";

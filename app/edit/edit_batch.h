@@ -24,7 +24,8 @@ namespace marey::app {
 [[nodiscard]] std::vector<std::string> names_of_files(
     const std::vector<std::filesystem::path>& files);
 
-/// Applies one recipe to many motions, in parallel by motion, each as the first source.
+/// Applies one recipe to many motions or files of labelled markers, in parallel by file,
+/// each as the first source.
 /// Goes on after a failure. Writes the results and edit.csv, a line per result. Returns
 /// kQualityGate if a motion failed or a figure is above its limit. Same bytes for any
 /// number of threads.

@@ -9,10 +9,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/edit/edit_batch.h"
-#include "app/edit/edit_diff.h"
 #include "app/edit/edit_inputs.h"
 #include "app/edit/edit_json.h"
 #include "app/edit/edit_outputs.h"
+#include "app/edit/edit_run.h"
+#include "app/edit/marker_edit_run.h"
 #include "app/motion/raw_body.h"
 #include "app/shell/findings.h"
 #include "app/shell/option_checks.h"
@@ -27,54 +28,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A recipe with its files and its result.
-struct EditRun {
-  EditRecipe recipe;
-  EditFiles files;
-  edit::Rendered rendered;
-};
-
-Result<EditRecipe> read_named_recipe(const fs::path& file) {
-  if (!file.string().ends_with(".toml")) {
-    return bad_input(file.string(),
-                     "is not a recipe (.edit.toml)",
-                     "edit it in a browser with --page, or make a recipe for it with "
-                     "--new RECIPE.edit.toml");
-  }
-  auto recipe = recordings::read_edit_recipe(file);
-  if (!recipe || !recipe->name.empty()) return recipe;
-  recipe->name = file.stem().string();
-  if (recipe->name.ends_with(".edit")) recipe->name.resize(recipe->name.size() - 5);
-  return recipe;
-}
-
-Result<EditRun> render_recipe(const fs::path& file,
-                              const EditArguments& args,
-                              Console& console) {
-  auto recipe = read_named_recipe(file);
-  if (!recipe) return recipe.error();
-  EditRun run;
-  run.recipe = *std::move(recipe);
-  auto files = read_edit_files(
-      run.recipe, {file.parent_path(), file.string(), args.accept_new_source});
-  if (!files) return files.error();
-  run.files = *std::move(files);
-  edit::RenderOptions options;
-  options.recipe_file = file.string();
-  if (args.until) options.until = static_cast<std::size_t>(*args.until);
-  auto rendered =
-      edit::render(run.recipe, run.files.inputs, options, console.stage("edit"));
-  if (!rendered) return rendered.error();
-  run.rendered = *std::move(rendered);
-  return run;
-}
-
 /// Records the content of the sources in the recipe.
-Status pin_sources(const fs::path& file, EditRun& run) {
-  for (std::size_t i = 0; i < run.recipe.sources.size(); ++i) {
-    run.recipe.sources[i].sha256 = run.files.sha256[i].substr(0, 64);
+Status pin_sources(const fs::path& file,
+                   const std::vector<std::string>& sha256,
+                   EditRecipe& recipe) {
+  for (std::size_t i = 0; i < recipe.sources.size(); ++i) {
+    recipe.sources[i].sha256 = sha256[i].substr(0, 64);
   }
-  return recordings::write_edit_recipe(file, run.recipe);
+  return recordings::write_edit_recipe(file, recipe);
+}
+
+/// Reads the source of a new recipe, and returns its SHA-256.
+Result<std::string> sha256_of_first_source(const EditRecipe& recipe,
+                                           const ReadEditOptions& options) {
+  if (edits_markers(recipe, options)) {
+    const auto markers = read_marker_edit_files(recipe, options);
+    if (!markers) return markers.error();
+    return markers->sha256;
+  }
+  const auto files = read_edit_files(recipe, options);
+  if (!files) return files.error();
+  return files->sha256.front();
 }
 
 Exit make_recipe(const EditArguments& args, Console& console) {
@@ -94,9 +68,9 @@ Exit make_recipe(const EditArguments& args, Console& console) {
   source.path = fs::relative(fs::absolute(args.recipe, failed), folder, failed).string();
   if (source.path.empty()) source.path = fs::absolute(args.recipe, failed).string();
   recipe.sources.push_back(source);
-  const auto files = read_edit_files(recipe, {folder, {}, false});
-  if (!files) return console.fail(files.error());
-  recipe.sources.front().sha256 = files->sha256.front().substr(0, 64);
+  const auto sha256 = sha256_of_first_source(recipe, {folder, {}, false});
+  if (!sha256) return console.fail(sha256.error());
+  recipe.sources.front().sha256 = sha256->substr(0, 64);
   const Status ok = recordings::write_edit_recipe(args.new_recipe, recipe);
   if (!ok) return console.fail(ok.error());
   console.say("recipe: " + args.new_recipe.string());
@@ -138,18 +112,39 @@ void say_figures(const std::vector<EditFigures>& figures, Console& console) {
   }
 }
 
-Result<std::vector<MotionFormat>> formats_of(const EditArguments& args) {
-  std::vector<MotionFormat> out;
+void say_marker_figures(const MarkerEditRun& run, Console& console) {
+  for (std::size_t i = 0; i < run.figures.size(); ++i) {
+    const EditFigures& f = run.figures[i];
+    console.say(format_text(
+        "%s: %d frames, %.2f s, %zu markers, displaced %.2f mm at most; %d frames "
+        "invented",
+        f.name.c_str(),
+        f.frames,
+        f.duration_s,
+        run.rendered.outputs[i].tracks.markers(),
+        f.displaced_mm,
+        f.inferred_frames));
+  }
+}
+
+/// Sets the formats of the results.
+Status set_formats(const EditArguments& args, EditOutput& output) {
   for (const std::string& word : args.formats) {
     const auto format = motion_format(word);
-    if (!format) {
+    if (format) {
+      output.formats.push_back(*format);
+    } else if (word == name(MarkerFormat::kC3d)) {
+      output.marker_formats.push_back(MarkerFormat::kC3d);
+    } else if (word == name(MarkerFormat::kTrc)) {
+      output.marker_formats.push_back(MarkerFormat::kTrc);
+    } else {
       return bad_usage("--format",
-                       in_quotes(word) + " is no format of a motion",
-                       "choose one of " + motion_extensions());
+                       in_quotes(word) + " is no format of a motion or of markers",
+                       "choose one of " + motion_extensions() +
+                           " for a motion, c3d or trc for labelled markers");
     }
-    out.push_back(*format);
   }
-  return out;
+  return Done{};
 }
 
 Exit edit_many(const EditArguments& args, const EditOutput& output, Console& console) {
@@ -158,11 +153,6 @@ Exit edit_many(const EditArguments& args, const EditOutput& output, Console& con
   const auto motions = files_of_pattern(args.each);
   if (!motions) return console.fail(motions.error());
   return run_edit_batch(*recipe, args.recipe, *motions, output, console);
-}
-
-void print_json(const nlohmann::ordered_json& json) {
-  constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
-  std::printf("%s\n", json.dump(2, ' ', false, kReplace).c_str());
 }
 
 Exit serve_recipe(const EditArguments& args,
@@ -176,14 +166,16 @@ Exit serve_recipe(const EditArguments& args,
   return run_edit_page(page, console);
 }
 
-Exit edit_one_recipe(const EditArguments& args,
+Exit edit_one_motion(EditRecipe recipe,
+                     const EditArguments& args,
                      const EditOutput& output,
                      Console& console) {
-  auto run = render_recipe(args.recipe, args, console);
+  auto run = render_recipe(args.recipe, std::move(recipe), run_options(args), console);
   if (!run) return console.fail(run.error());
   const auto figures = measure_edit(run->recipe, run->files, run->rendered);
   const auto findings = findings_of(*run, figures);
-  if (args.json) print_json(edit_json(run->recipe, run->files, run->rendered, figures));
+  if (args.json)
+    print_edit_json(edit_json(run->recipe, run->files, run->rendered, figures));
   if (!args.check) {
     const auto written =
         write_edit(run->recipe, run->files, run->rendered, figures, output);
@@ -192,14 +184,59 @@ Exit edit_one_recipe(const EditArguments& args,
   print_warnings(console, findings);
   say_figures(figures, console);
   if (args.pin) {
-    if (const Status ok = pin_sources(args.recipe, *run); !ok) {
-      return console.fail(ok.error());
-    }
+    const Status ok = pin_sources(args.recipe, run->files.sha256, run->recipe);
+    if (!ok) return console.fail(ok.error());
   }
   return print_failures(console, findings);
 }
 
+Exit edit_one_recording(EditRecipe recipe,
+                        const EditArguments& args,
+                        const EditOutput& output,
+                        Console& console) {
+  auto run =
+      render_marker_recipe(args.recipe, std::move(recipe), run_options(args), console);
+  if (!run) return console.fail(run.error());
+  const auto findings = findings_of_marker_edit(*run, output);
+  if (args.json) {
+    print_edit_json(
+        marker_edit_json(run->recipe, run->files, run->rendered, run->figures));
+  }
+  if (!args.check) {
+    const auto written =
+        write_marker_edit(run->recipe, run->files, run->rendered, run->figures, output);
+    if (!written) return console.fail(written.error());
+  }
+  print_warnings(console, findings);
+  say_marker_figures(*run, console);
+  if (args.pin) {
+    const Status ok = pin_sources(args.recipe, {run->files.sha256}, run->recipe);
+    if (!ok) return console.fail(ok.error());
+  }
+  return print_failures(console, findings);
+}
+
+Exit edit_one_recipe(const EditArguments& args,
+                     const EditOutput& output,
+                     Console& console) {
+  auto recipe = read_named_recipe(args.recipe);
+  if (!recipe) return console.fail(recipe.error());
+  const bool has_markers =
+      edits_markers(*recipe, options_of_reading(args.recipe, run_options(args)));
+  const Status ok = check_output_formats(output, has_markers);
+  if (!ok) return console.fail(ok.error());
+  return has_markers ? edit_one_recording(*std::move(recipe), args, output, console)
+                     : edit_one_motion(*std::move(recipe), args, output, console);
+}
+
 }  // namespace
+
+EditRunOptions run_options(const EditArguments& args) {
+  EditRunOptions out;
+  out.accept_new_sources = args.accept_new_source;
+  if (args.until) out.until = static_cast<std::size_t>(*args.until);
+  return out;
+}
 
 Exit run_edit(const EditArguments& args, Console& console) {
   if (!args.new_recipe.empty()) return make_recipe(args, console);
@@ -211,9 +248,7 @@ Exit run_edit(const EditArguments& args, Console& console) {
   }
   EditOutput output;
   output.out = args.out;
-  auto formats = formats_of(args);
-  if (!formats) return console.fail(formats.error());
-  output.formats = *std::move(formats);
+  if (const Status ok = set_formats(args, output); !ok) return console.fail(ok.error());
   if (!args.out.empty()) {
     if (const Status ok = check_out_folder(args.out); !ok)
       return console.fail(ok.error());
@@ -221,38 +256,6 @@ Exit run_edit(const EditArguments& args, Console& console) {
   if (args.serves_page) return serve_recipe(args, output.formats, console);
   return args.each.empty() ? edit_one_recipe(args, output, console)
                            : edit_many(args, output, console);
-}
-
-Exit run_edit_diff(const EditArguments& args, Console& console) {
-  const auto first = render_recipe(args.diff_first, args, console);
-  if (!first) return console.fail(first.error());
-  const auto second = render_recipe(args.diff_second, args, console);
-  if (!second) return console.fail(second.error());
-  const EditDifference difference =
-      compare_edits(first->recipe, first->rendered, second->recipe, second->rendered);
-  if (args.json) {
-    nlohmann::ordered_json json{{"operations", difference.operations},
-                                {"first_frames", difference.first_frames},
-                                {"second_frames", difference.second_frames}};
-    if (difference.motion) {
-      json["largest_mm"] = difference.motion->largest_mm;
-      json["joint"] = difference.motion->joint;
-      json["frame"] = difference.motion->frame;
-    }
-    print_json(json);
-    return Exit::kOk;
-  }
-  for (const std::string& line : difference.operations) std::printf("%s\n", line.c_str());
-  std::printf("frames: %d and %d\n", difference.first_frames, difference.second_frames);
-  if (difference.motion) {
-    std::printf("largest difference: %.3f mm, %s, frame %d\n",
-                difference.motion->largest_mm,
-                difference.motion->joint.c_str(),
-                difference.motion->frame);
-  } else {
-    std::printf("the results have different joints or several motions\n");
-  }
-  return Exit::kOk;
 }
 
 namespace {
@@ -280,16 +283,20 @@ void add_edit_page_options(CLI::App& command, EditArguments& args) {
 void add_edit_command(CLI::App& app,
                       EditArguments& args,
                       std::function<Exit(Console&)>& chosen) {
-  CLI::App* command =
-      app.add_subcommand("edit", "Apply a recipe of operations to a motion");
+  CLI::App* command = app.add_subcommand("edit",
+                                         "Apply a recipe of operations to a motion or to "
+                                         "labelled markers");
   auto* recipe = command->add_option(
-      "RECIPE", args.recipe, "Recipe (.edit.toml); with --new or --page: a motion");
+      "RECIPE",
+      args.recipe,
+      "Recipe (.edit.toml); with --page: also a motion; with --new: a "
+      "motion, or markers (.c3d, .trc)");
   command->add_option("-o,--out", args.out, "Folder of the results");
   command
       ->add_option("--format",
                    args.formats,
                    "Format of the results, may be repeated; default npz, bvh, glb and "
-                   "vrma as the body allows")
+                   "vrma as the body allows; c3d and trc for labelled markers")
       ->allow_extra_args(false);
   command->add_option("--until", args.until, "Number of operations to apply")
       ->check(whole_between(0, 10000));
@@ -297,8 +304,10 @@ void add_edit_command(CLI::App& app,
                       args.each,
                       "Applies the recipe to all motions of a pattern, such as "
                       "'takes/*/motion.npz'");
-  command->add_option(
-      "--new", args.new_recipe, "Makes a recipe for the motion without operations");
+  command->add_option("--new",
+                      args.new_recipe,
+                      "Makes a recipe without operations for the motion or the "
+                      "markers");
   command->add_flag("--check", args.check, "Measures the result and writes nothing");
   command->add_flag("--pin",
                     args.pin,

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
+#include <string_view>
 
 #include <glm/geometric.hpp>
 
@@ -79,7 +81,53 @@ std::optional<MotionDifference> compare_motions(const Motion& a, const Motion& b
   return out;
 }
 
+std::optional<MarkerDifference> compare_tracks(const MarkerTracks& a,
+                                               const MarkerTracks& b) {
+  std::map<std::string_view, std::size_t> second_places;
+  for (std::size_t m = 0; m < b.markers(); ++m) second_places.emplace(b.labels[m], m);
+  MarkerDifference out;
+  bool has_common = false;
+  for (std::size_t m = 0; m < a.markers(); ++m) {
+    const auto second = second_places.find(a.labels[m]);
+    if (second == second_places.end()) continue;
+    if (out.marker.empty()) out.marker = a.labels[m];
+    has_common = true;
+    for (std::size_t t = 0; t < std::min(a.frames(), b.frames()); ++t) {
+      const auto& one = a.at(t, m);
+      const auto& other = b.at(t, second->second);
+      if (one.has_value() != other.has_value()) ++out.seen_in_one;
+      if (!one || !other) continue;
+      const double mm = 1e3 * glm::distance(one->p_in_world, other->p_in_world);
+      if (mm <= out.largest_mm) continue;
+      out.largest_mm = mm;
+      out.marker = a.labels[m];
+      out.frame = static_cast<int>(t);
+    }
+  }
+  if (!has_common) return std::nullopt;
+  return out;
+}
+
 }  // namespace
+
+MarkerEditDifference compare_marker_edits(const EditRecipe& first,
+                                          const edit::RenderedMarkers& first_result,
+                                          const EditRecipe& second,
+                                          const edit::RenderedMarkers& second_result) {
+  MarkerEditDifference out;
+  out.operations = differing(lines_of(first), lines_of(second));
+  for (const edit::MarkerState& state : first_result.outputs) {
+    out.first_frames += state.frame_count();
+  }
+  for (const edit::MarkerState& state : second_result.outputs) {
+    out.second_frames += state.frame_count();
+  }
+  if (first_result.outputs.size() == 1 && second_result.outputs.size() == 1) {
+    out.markers = compare_tracks(first_result.outputs.front().tracks,
+                                 second_result.outputs.front().tracks);
+  }
+  return out;
+}
 
 EditDifference compare_edits(const EditRecipe& first,
                              const edit::Rendered& first_result,

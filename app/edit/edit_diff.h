@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "edit/markers/render_markers.h"
 #include "edit/render.h"
 
 #include "core/edit/edit_recipe.h"
@@ -34,5 +36,29 @@ struct EditDifference {
                                            const edit::Rendered& first_result,
                                            const EditRecipe& second,
                                            const edit::Rendered& second_result);
+
+/// The largest distance between the same marker of two results at the same frame.
+struct MarkerDifference {
+  double largest_mm = 0.0;
+  std::string marker;
+  int frame = 0;
+  std::size_t seen_in_one = 0;  ///< Samples that only one result has.
+};
+
+struct MarkerEditDifference {
+  std::vector<std::string> operations;  ///< As EditDifference's.
+  int first_frames = 0;
+  int second_frames = 0;
+  /// nullopt: the results have no marker in common, or several recordings.
+  std::optional<MarkerDifference> markers;
+};
+
+/// Compares two recipes of labelled markers. Compares the frames and labels that both
+/// have.
+[[nodiscard]] MarkerEditDifference compare_marker_edits(
+    const EditRecipe& first,
+    const edit::RenderedMarkers& first_result,
+    const EditRecipe& second,
+    const edit::RenderedMarkers& second_result);
 
 }  // namespace marey::app

@@ -15,9 +15,9 @@
 #include "app/motion/raw_body.h"
 #include "app/motion/read_body.h"
 #include "core/base/extension.h"
-#include "core/base/in_quotes.h"
 #include "recordings/base/sha256.h"
 #include "recordings/edit/edit_recipe_file.h"
+#include "recordings/markers/marker_file.h"
 #include "recordings/motion/npz.h"
 
 namespace marey::app {
@@ -38,7 +38,7 @@ class EditReader {
   Result<EditFiles> read() {
     for (std::size_t i = 0; i < recipe_.sources.size(); ++i) {
       if (const Status ok = read_source(static_cast<int>(i)); !ok) {
-        return at_line(ok.error(), recipe_.sources[i].line);
+        return at_recipe_line_of(ok.error(), recipe_.sources[i].line, options_);
       }
     }
     for (const EditOp& op : recipe_.ops) {
@@ -46,51 +46,16 @@ class EditReader {
       if (retarget == nullptr || op.off || out_.avatars.contains(retarget->avatar))
         continue;
       if (const Status ok = read_avatar(retarget->avatar); !ok) {
-        return at_line(ok.error(), op.line);
+        return at_recipe_line_of(ok.error(), op.line, options_);
       }
     }
     return std::move(out_);
   }
 
  private:
-  [[nodiscard]] Error at_line(Error error, int line) const {
-    if (options_.recipe_file.empty()) return error;
-    const std::string place = line > 0 ? options_.recipe_file + ":" + std::to_string(line)
-                                       : options_.recipe_file;
-    error.where = place + ": " + error.where;
-    return error;
-  }
-
-  /// Finds a file at its path, or by its name in the folder of the recipe.
-  [[nodiscard]] Result<fs::path> find(const std::string& path) const {
-    const fs::path stated(path);
-    const fs::path full = stated.is_absolute() ? stated : options_.folder / stated;
-    std::error_code absent;
-    if (fs::exists(full, absent)) return full;
-    const fs::path beside = options_.folder / stated.filename();
-    if (!stated.filename().empty() && fs::exists(beside, absent)) return beside;
-    return bad_input(full.string(),
-                     "does not exist, nor does " + in_quotes(stated.filename().string()) +
-                         " in the recipe's folder",
-                     "correct the path; it is relative to the recipe");
-  }
-
-  Status check_content(const EditSource& source,
-                       const fs::path& file,
-                       const std::string& sha256) const {
-    if (source.sha256.empty() || source.sha256 == sha256) return Done{};
-    if (options_.accept_new_sources) return Done{};
-    return bad_input(file.string(),
-                     "has another content than the recipe was made for (SHA-256 " +
-                         sha256.substr(0, 12) + "..., recorded " +
-                         source.sha256.substr(0, 12) + "...)",
-                     "restore the file, or accept the new content with "
-                     "--accept-new-source");
-  }
-
   Status read_source(int place) {
     const EditSource& source = recipe_.sources[static_cast<std::size_t>(place)];
-    const auto found = find(source.path);
+    const auto found = find_edit_file(options_, source.path);
     if (!found) return found.error();
     fs::path file = *found;
     std::error_code failed;
@@ -102,9 +67,16 @@ class EditReader {
                          "give a trial's folder of results, or a motion file");
       }
     }
+    if (recordings::check_marker_extension(file)) {
+      return bad_input(file.string(),
+                       "holds labelled markers, not the motion of a body",
+                       "solve the markers first (marey fit), and use its motion.npz");
+    }
     auto sha256 = recordings::sha256_of_file(file);
     if (!sha256) return sha256.error();
-    if (const Status ok = check_content(source, file, *sha256); !ok) return ok;
+    if (const Status ok = check_edit_source(source, file, *sha256, options_); !ok) {
+      return ok;
+    }
     out_.sha256.push_back(*sha256);
     const bool is_recipe = file.string().ends_with(".edit.toml");
     auto state = is_recipe ? render_source(file, place) : read_motion_source(file, place);
@@ -192,7 +164,7 @@ class EditReader {
   }
 
   Status read_avatar(const std::string& path) {
-    const auto file = find(path);
+    const auto file = find_edit_file(options_, path);
     if (!file) return file.error();
     auto avatar = open_avatar(BodyFile(*file));
     if (!avatar) return avatar.error();

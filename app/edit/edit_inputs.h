@@ -9,6 +9,7 @@
 
 #include "edit/state/op_report.h"
 
+#include "app/edit/edit_source_file.h"
 #include "app/motion/motion_files.h"
 #include "app/motion/retarget_files.h"
 #include "core/base/result.h"
@@ -27,19 +28,13 @@ struct EditFiles {
   std::vector<std::string> remarks;  ///< Assumptions of the readers, with the file.
 };
 
-struct ReadEditOptions {
-  std::filesystem::path folder;     ///< Paths of the recipe are relative to it.
-  std::string recipe_file;          ///< For the place of errors.
-  bool accept_new_sources = false;  ///< A source with another SHA-256 is accepted.
-};
-
 /// Reads sources and avatars. A source is a motion file that `marey retarget` reads, a
 /// trial's folder of results (its motion.npz, with the sigmas and sources of its frames)
 /// or another recipe, which is rendered. A source that is not at its path is looked for
 /// by its name in the recipe's folder.
 /// Errors (bad input), with file and line of the recipe: a file that is missing or cannot
 /// be read; content of another SHA-256 than recorded; recipes that are sources of each
-/// other; make_edit_state()'s.
+/// other; labelled markers (.c3d, .trc); make_edit_state()'s.
 [[nodiscard]] Result<EditFiles> read_edit_files(const EditRecipe& recipe,
                                                 const ReadEditOptions& options);
 

@@ -26,9 +26,10 @@ bool continues(const edit::FrameLineage& before, const edit::FrameLineage& next)
          next.history == before.history;
 }
 
-/// Frames with the same origin, as runs.
-ordered_json lineage_json(const edit::EditState& state) {
-  const auto& frames = state.lineage.frames;
+}  // namespace
+
+ordered_json edit_lineage_json(const edit::Lineage& lineage) {
+  const auto& frames = lineage.frames;
   ordered_json out = ordered_json::array();
   std::size_t first = 0;
   for (std::size_t t = 0; t < frames.size(); ++t) {
@@ -38,14 +39,14 @@ ordered_json lineage_json(const edit::EditState& state) {
          {"source", frames[first].source},
          {"source_frames",
           {rounded(frames[first].source_frame), rounded(frames[t].source_frame)}},
-         {"operations", edit::ops_of(state.lineage, static_cast<int>(first))},
+         {"operations", edit::ops_of(lineage, static_cast<int>(first))},
          {"invented", frames[first].trust == Source::kInferred}});
     first = t + 1;
   }
   return out;
 }
 
-ordered_json report_json(const edit::OpReport& report) {
+ordered_json edit_report_json(const edit::OpReport& report) {
   ordered_json figures = ordered_json::object();
   for (const auto& [name, value] : report.figures) figures[name] = rounded(value);
   return {{"operation", report.index},
@@ -53,8 +54,6 @@ ordered_json report_json(const edit::OpReport& report) {
           {"figures", figures},
           {"findings", findings_json(report.findings)}};
 }
-
-}  // namespace
 
 ordered_json edit_figures_json(const EditFigures& figures) {
   return {{"name", figures.name},
@@ -81,12 +80,12 @@ ordered_json edit_json(const EditRecipe& recipe,
   }
   ordered_json operations = ordered_json::array();
   for (const edit::OpReport& report : rendered.reports) {
-    operations.push_back(report_json(report));
+    operations.push_back(edit_report_json(report));
   }
   ordered_json results = ordered_json::array();
   for (std::size_t i = 0; i < rendered.outputs.size(); ++i) {
     ordered_json result = edit_figures_json(figures[i]);
-    result["lineage"] = lineage_json(rendered.outputs[i]);
+    result["lineage"] = edit_lineage_json(rendered.outputs[i].lineage);
     results.push_back(std::move(result));
   }
   return {{"format", 1},

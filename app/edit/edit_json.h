@@ -25,5 +25,9 @@ namespace marey::app {
 
 /// Returns the figures of one result.
 [[nodiscard]] nlohmann::ordered_json edit_figures_json(const EditFigures& figures);
+/// Returns frames of the same origin as runs.
+[[nodiscard]] nlohmann::ordered_json edit_lineage_json(const edit::Lineage& lineage);
+/// Returns the figures and findings of one operation.
+[[nodiscard]] nlohmann::ordered_json edit_report_json(const edit::OpReport& report);
 
 }  // namespace marey::app

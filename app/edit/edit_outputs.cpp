@@ -185,6 +185,21 @@ void check_limit(const std::optional<double>& limit,
 
 }  // namespace
 
+Status check_output_formats(const EditOutput& output, bool has_markers) {
+  if (has_markers && output.marker_formats.empty() && !output.formats.empty()) {
+    return bad_usage("--format",
+                     "this recipe edits labelled markers, which have no such files",
+                     "choose c3d or trc, or leave it out");
+  }
+  if (!has_markers && output.formats.empty() && !output.marker_formats.empty()) {
+    return bad_usage("--format",
+                     "c3d and trc are formats of labelled markers, and this recipe edits "
+                     "a motion",
+                     "choose one of " + motion_extensions() + ", or leave it out");
+  }
+  return Done{};
+}
+
 std::vector<std::string> edit_names(const EditRecipe& recipe, std::size_t outputs) {
   if (outputs == 1) return {recipe.name};
   std::vector<std::string> out;
@@ -237,7 +252,7 @@ std::vector<Finding> assess_edit(const EditRecipe& recipe,
                 out);
     check_limit(limits.displaced_mm,
                 result.displaced_mm,
-                "the largest displacement of a joint",
+                "the largest displacement of a joint or marker",
                 "mm",
                 result,
                 "look at edit.json for the operation, and weaken it",

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "edit/render.h"
@@ -18,10 +19,21 @@
 
 namespace marey::app {
 
+/// Kinds of files for labelled markers.
+enum class MarkerFormat { kC3d, kTrc };
+/// Returns the file extension without its point: "c3d".
+[[nodiscard]] constexpr std::string_view name(MarkerFormat format) {
+  return format == MarkerFormat::kC3d ? "c3d" : "trc";
+}
+
 struct EditOutput {
   std::filesystem::path out;          ///< Folder.
   std::vector<MotionFormat> formats;  ///< Empty: all formats that the body allows.
+  std::vector<MarkerFormat> marker_formats{};  ///< Empty: both, for labelled markers.
 };
+
+/// Checks that formats were not given for the other kind of data only. Errors (usage).
+[[nodiscard]] Status check_output_formats(const EditOutput& output, bool has_markers);
 
 /// Returns the names of the results: that of the recipe, with .1, .2 ... if there are
 /// several.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/edit/edit_patch.h"
+#include "app/edit/marker_edit_inputs.h"
 #include "core/base/assert.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/edit/edit_recipe_file.h"
@@ -100,6 +101,12 @@ Result<std::unique_ptr<EditSession>> EditSession::open(const EditSessionOptions&
                        : recordings::read_edit_recipe(options.recipe_file);
   if (!recipe) return recipe.error();
   if (recipe->name.empty()) recipe->name = recipe_stem(options.recipe_file);
+  if (edits_markers(*recipe, read_options(options))) {
+    return bad_input(recipe->sources.front().path,
+                     "labelled markers cannot be edited on the page",
+                     "write the operations into a recipe (marey edit MARKERS --new "
+                     "NAME.edit.toml), and apply it with --out");
+  }
   auto files = read_edit_files(*recipe, read_options(options));
   if (!files) return files.error();
   auto journal = EditJournal::open(journal_of(options.recipe_file));

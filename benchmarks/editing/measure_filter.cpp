@@ -20,7 +20,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <random>
@@ -30,63 +29,21 @@
 #include "edit/signal/butterworth.h"
 #include "edit/signal/choose_smoothing.h"
 
+#include "benchmarks/editing/noisy_channels.h"
 #include "benchmarks/parts/result_table.h"
 #include "core/base/quantile.h"
 #include "core/base/stopwatch.h"
-#include "recordings/base/atomic_file.h"
-#include "recordings/base/csv_line.h"
 
 namespace marey {
 namespace {
 
-constexpr double kRate_hz = 120.0;
-using Channels = std::vector<std::vector<double>>;
-
-struct Clip {
-  std::string name;
-  Channels truth_m;
-};
+using Channels = NoisyChannels;
+using Clip = TruthClip;
+constexpr double kRate_hz = kTruthRate_hz;
 
 /// Root, arm and leg; indices of the 12 channels.
 std::vector<std::vector<std::size_t>> body_groups() {
   return {{0, 1, 2}, {3, 4, 5}, {6, 7, 8, 9, 10, 11}};
-}
-
-[[noreturn]] void stop(const std::string& text) {
-  std::fprintf(stderr, "%s\n", text.c_str());
-  std::exit(1);
-}
-
-Clip read_truth_clip(const std::filesystem::path& folder, const std::string& name) {
-  const auto file = folder / name / "truth" / "joints_120hz.csv";
-  const auto text = recordings::read_file(file);
-  if (!text) stop(text.error().message());
-  recordings::CsvLines lines(*text);
-  const auto header = lines.next();
-  if (!header) stop(file.string() + ": empty");
-  std::map<std::string, std::size_t> columns;
-  recordings::CsvFields names(*header);
-  const auto count =
-      static_cast<std::size_t>(std::count(header->begin(), header->end(), ',')) + 1;
-  for (std::size_t i = 0; i < count; ++i) columns[std::string(names.text())] = i;
-  std::vector<std::size_t> wanted;
-  for (const char* joint : {"hip_l", "wrist_l", "ankle_l", "toe_l"}) {
-    for (const char* axis : {"_x", "_y", "_z"}) {
-      const auto column = columns.find(std::string(joint) + axis);
-      if (column == columns.end()) stop(file.string() + ": no column of " + joint);
-      wanted.push_back(column->second);
-    }
-  }
-  Clip clip{name, Channels(wanted.size())};
-  while (const auto line = lines.next()) {
-    recordings::CsvFields fields(*line);
-    std::vector<double> row(count);
-    for (double& value : row) value = fields.number<double>();
-    for (std::size_t k = 0; k < wanted.size(); ++k) {
-      clip.truth_m[k].push_back(row[wanted[k]]);
-    }
-  }
-  return clip;
 }
 
 /// A made motion: sines of random phase up to 3 Hz (hip), 8 Hz (wrist) and 5 Hz (leg).
@@ -106,37 +63,6 @@ Clip made_clip(const std::string& name, double band_factor, unsigned seed) {
     }
   }
   return clip;
-}
-
-double error_of(const std::vector<double>& a, const std::vector<double>& truth) {
-  double squares = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    squares += (a[i] - truth[i]) * (a[i] - truth[i]);
-  }
-  return std::sqrt(squares / static_cast<double>(a.size()));
-}
-
-double butterworth_error(std::vector<double> channel,
-                         const std::vector<double>& truth,
-                         double cutoff_hz) {
-  edit::filter_butterworth(channel, cutoff_hz, kRate_hz);
-  return error_of(channel, truth);
-}
-
-struct Oracle {
-  double cutoff_hz = 0.0;
-  double error_m = 1e9;
-};
-
-Oracle best_butterworth(const std::vector<double>& channel,
-                        const std::vector<double>& truth) {
-  Oracle best;
-  for (int step = 0; step < 113; ++step) {  // 0.7 to 57 Hz.
-    const double cutoff_hz = 0.7 * std::pow(1.04, step);
-    const double error_m = butterworth_error(channel, truth, cutoff_hz);
-    if (error_m < best.error_m) best = {cutoff_hz, error_m};
-  }
-  return best;
 }
 
 /// Ratios of one filter.
@@ -181,7 +107,7 @@ std::vector<std::vector<double>> filter_errors(const Channels& noisy,
     Channels smoothed = noisy;
     static_cast<void>(edit::smooth_groups(smoothed, groups, kRate_hz, {{order}, rule}));
     for (std::size_t k = 0; k < noisy.size(); ++k) {
-      errors[filter].push_back(error_of(smoothed[k], truth[k]));
+      errors[filter].push_back(channel_error(smoothed[k], truth[k]));
     }
   };
   spline(3, 2, edit::GroupRule::kMedian, body_groups());
@@ -192,36 +118,16 @@ std::vector<std::vector<double>> filter_errors(const Channels& noisy,
   return errors;
 }
 
-/// Noise: its sigma, and the correlation of consecutive samples (first-order process).
-struct Noise {
-  double sigma_m = 0.0;
-  double correlation = 0.0;
-};
-
-Channels with_noise(Channels channels, const Noise& noise, unsigned seed) {
-  std::mt19937 random(7919 * seed + 1);
-  std::normal_distribution<double> unit(0.0, 1.0);
-  const double fresh = std::sqrt(1.0 - noise.correlation * noise.correlation);
-  for (auto& channel : channels) {
-    double state = unit(random);
-    for (double& value : channel) {
-      value += noise.sigma_m * state;
-      state = noise.correlation * state + fresh * unit(random);
-    }
-  }
-  return channels;
-}
-
-void measure(const Clip& clip, const Noise& noise, unsigned seeds) {
+void measure(const Clip& clip, const ChannelNoise& noise, unsigned seeds) {
   const std::vector<std::string> names = filter_names();
   std::vector<Ratios> ratios(names.size());
   std::vector<double> cutoffs;
   std::vector<double> oracle_errors;
   for (unsigned seed = 0; seed < seeds; ++seed) {
-    const Channels noisy = with_noise(clip.truth_m, noise, seed);
+    const Channels noisy = with_channel_noise(clip.truth_m, noise, seed);
     const auto errors = filter_errors(noisy, clip.truth_m);
     for (std::size_t k = 0; k < noisy.size(); ++k) {
-      const Oracle oracle = best_butterworth(noisy[k], clip.truth_m[k]);
+      const OracleFilter oracle = best_butterworth(noisy[k], clip.truth_m[k]);
       cutoffs.push_back(oracle.cutoff_hz);
       oracle_errors.push_back(oracle.error_m);
       for (std::size_t filter = 0; filter < names.size(); ++filter) {
@@ -281,7 +187,7 @@ void measure_time(std::size_t channel_count, std::size_t frames) {
 }
 
 int run(int argc, char** argv) {
-  if (argc < 2) stop("usage: measure_filter FOLDER [SEEDS]");
+  if (argc < 2) stop_benchmark("usage: measure_filter FOLDER [SEEDS]");
   const std::filesystem::path folder = argv[1];
   const unsigned seeds = argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 20;
   std::vector<Clip> clips;
@@ -295,8 +201,10 @@ int run(int argc, char** argv) {
   clips.push_back(made_clip("made, slow", 0.7, 11));
   clips.push_back(made_clip("made, fast", 2.0, 12));
   for (const Clip& clip : clips) {
-    for (const Noise& noise :
-         {Noise{0.001, 0.0}, Noise{0.003, 0.0}, Noise{0.001, 0.5}, Noise{0.003, 0.5}}) {
+    for (const ChannelNoise& noise : {ChannelNoise{0.001, 0.0},
+                                      ChannelNoise{0.003, 0.0},
+                                      ChannelNoise{0.001, 0.5},
+                                      ChannelNoise{0.003, 0.5}}) {
       measure(clip, noise, seeds);
     }
   }

@@ -3,6 +3,7 @@
 #include "edit/filter/channel_filter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -112,10 +113,35 @@ ChannelFilter::ChannelFilter(const FilterOp& op,
     }
   }
   if (op.method == FilterMethod::kButterworth) {
-    choose_butterworth(channels);
+    choose_butterworth(channels, std::array{Piece{0, count, std::nullopt}});
   } else {
     choose_spline(channels, weights);
   }
+}
+
+ChannelFilter::ChannelFilter(const FilterOp& op,
+                             std::span<const std::vector<double>> channels,
+                             std::span<const double> weights,
+                             std::span<const FrameRange> seen,
+                             double rate_hz)
+    : op_(op), rate_hz_(rate_hz), has_gaps_(true) {
+  for (const FrameRange& piece : seen) {
+    pieces_.push_back({static_cast<std::size_t>(piece.first),
+                       static_cast<std::size_t>(piece.last - piece.first + 1),
+                       std::nullopt});
+  }
+  if (channels.empty()) return;
+  if (op.method == FilterMethod::kButterworth) {
+    choose_butterworth(channels, pieces_);
+  } else {
+    choose_joint_spline(channels, weights);
+  }
+}
+
+double ChannelFilter::removed_noise_share() const {
+  MAREY_ASSERT(cutoff_hz_);
+  constexpr double kLeastNoise = 0.1;
+  return std::sqrt(std::max(1.0 - *cutoff_hz_ / (0.5 * rate_hz_), kLeastNoise));
 }
 
 void ChannelFilter::choose_spline(std::span<const std::vector<double>> channels,
@@ -138,18 +164,53 @@ void ChannelFilter::choose_spline(std::span<const std::vector<double>> channels,
         varying_part(channels, 0, channels[0].size()), weights, options, rate_hz_);
     if (penalty) found.push_back({*penalty, 1.0});
   }
-  if (found.empty()) return;
-  const double penalty = weighted_median(std::move(found));
+  if (!found.empty()) set_spline(weighted_median(std::move(found)), weights);
+}
+
+void ChannelFilter::choose_joint_spline(std::span<const std::vector<double>> channels,
+                                        std::span<const double> weights) {
+  SmoothingChannels all;
+  std::vector<std::size_t> group;
+  for (const Piece& piece : pieces_) {
+    if (piece.count < kMinSmoothingSamples) continue;
+    all.splines.emplace_back(
+        piece.count,
+        SplineOptions{op_.order},
+        weights.empty() ? weights : weights.subspan(piece.first, piece.count));
+    for (const auto& channel : channels) {
+      const auto part = std::span(channel).subspan(piece.first, piece.count);
+      if (is_straight_channel(part)) continue;
+      group.push_back(all.samples.size());
+      all.samples.push_back(part);
+      all.spline_of.push_back(all.splines.size() - 1);
+    }
+  }
+  if (group.empty()) return;
+  const std::vector<std::vector<std::size_t>> groups{group};
+  set_spline(choose_penalties(all, groups).groups[0], weights);
+}
+
+void ChannelFilter::set_spline(double penalty, std::span<const double> weights) {
+  const SplineOptions options{op_.order};
   cutoff_hz_ = half_power_hz(penalty, rate_hz_, options);
   for (Piece& piece : pieces_) {
-    if (piece.count < 2 * static_cast<std::size_t>(op_.order) + 1) continue;
-    piece.spline.emplace(piece.count, options, part_of(piece.first, piece.count));
+    if (piece.count < min_piece(op_)) continue;
+    piece.spline.emplace(
+        piece.count,
+        options,
+        weights.empty() ? weights : weights.subspan(piece.first, piece.count));
     piece.spline->set_penalty(penalty);
   }
 }
 
-void ChannelFilter::choose_butterworth(std::span<const std::vector<double>> channels) {
-  const ChannelList varying = varying_part(channels, 0, channels[0].size());
+void ChannelFilter::choose_butterworth(std::span<const std::vector<double>> channels,
+                                       std::span<const Piece> parts) {
+  std::vector<std::pair<ChannelList, std::size_t>> varying;
+  for (const Piece& part : parts) {
+    if (part.count < kMinSmoothingSamples) continue;
+    ChannelList list = varying_part(channels, part.first, part.count);
+    if (!list.empty()) varying.emplace_back(std::move(list), part.count);
+  }
   if (varying.empty()) return;
   // A filter needs a cut-off below half the rate.
   const double highest_hz = 0.45 * rate_hz_;
@@ -160,9 +221,13 @@ void ChannelFilter::choose_butterworth(std::span<const std::vector<double>> chan
   }
   if (op_.cutoff != CutoffRule::kWinter) return;
   std::vector<Weighted> found;
-  for (const auto& channel : varying) {
-    const auto cutoff_hz = winter_cutoff_hz(channel, rate_hz_);
-    if (cutoff_hz) found.push_back({*cutoff_hz, variance_of(channel)});
+  for (const auto& [list, count] : varying) {
+    // The sum of squares with gaps; with one part its length does not matter.
+    const double length = has_gaps_ ? static_cast<double>(count) : 1.0;
+    for (const auto& channel : list) {
+      const auto cutoff_hz = winter_cutoff_hz(channel, rate_hz_);
+      if (cutoff_hz) found.push_back({*cutoff_hz, length * variance_of(channel)});
+    }
   }
   if (!found.empty()) {
     cutoff_hz_ = std::min(weighted_median(std::move(found)), highest_hz);
@@ -176,7 +241,8 @@ void ChannelFilter::run(std::span<std::vector<double>> channels) {
     for (Piece& piece : pieces_) {
       const std::span part = std::span(channel).subspan(piece.first, piece.count);
       std::vector<double> fitted(part.begin(), part.end());
-      if (op_.method == FilterMethod::kButterworth) {
+      const bool is_too_short = has_gaps_ && piece.count < min_piece(op_);
+      if (op_.method == FilterMethod::kButterworth && !is_too_short) {
         filter_butterworth(fitted, *cutoff_hz_, rate_hz_);
       } else if (piece.spline) {
         (void)piece.spline->fit(part, fitted);

@@ -135,9 +135,7 @@ FilteredGroup filter_group(const FilterOp& op,
   ChannelFilter filter(op, all, weights_of(state, joints), impacts, hz);
   found.cutoff_hz = filter.cutoff_hz();
   if (!found.cutoff_hz) return found;
-  constexpr double kLeastNoise = 0.1;
-  const double noise_share =
-      std::sqrt(std::max(1.0 - *found.cutoff_hz / (0.5 * hz), kLeastNoise));
+  const double noise_share = filter.removed_noise_share();
   std::vector<double> noise_rad;
   for (const std::size_t joint : joints) {
     const auto before = rotations_of(state.motion, joint);

@@ -43,10 +43,10 @@ double value_at(const std::vector<std::pair<double, double>>& keys, double frame
 }
 
 Result<std::vector<std::pair<double, double>>> curve_keys(const CurveOp& op,
-                                                          const EditState& state) {
+                                                          const Timeline& timeline) {
   std::vector<std::pair<double, double>> keys;
   for (const CurveKey& key : op.keys) {
-    const auto frame = resolve_moment(state, key.at);
+    const auto frame = resolve_moment(timeline, key.at);
     if (!frame) return frame.error();
     if (!std::isfinite(key.value)) {
       return bad_input("keys", "has a value that is not finite", "state a number");
@@ -62,48 +62,45 @@ Result<std::vector<std::pair<double, double>>> curve_keys(const CurveOp& op,
 
 }  // namespace
 
-Result<EditState> apply_tag(const TagOp& op,
-                            const OpContext& context,
-                            const EditState& state,
-                            OpReport& /*report*/) {
-  if (const Status ok = check_op_keys(context.op, {.span = true}); !ok) return ok.error();
-  if (const Status ok = check_text(op.text, "text"); !ok) return ok.error();
-  const auto span = resolve_span(state, context.op.span);
+Status add_tag(const TagOp& op,
+               const EditOp& common,
+               const Timeline& timeline,
+               Annotations& annotations) {
+  if (const Status ok = check_op_keys(common, {.span = true}); !ok) return ok;
+  if (const Status ok = check_text(op.text, "text"); !ok) return ok;
+  const auto span = resolve_span(timeline, common.span);
   if (!span) return span.error();
-  EditState out = state;
-  const double hz = state.motion.rate.hz;
-  insert_note({op.text, span->first / hz, span->last / hz}, out.annotations);
-  return out;
+  const double hz = timeline.rate_hz;
+  insert_note({op.text, span->first / hz, span->last / hz}, annotations);
+  return Done{};
 }
 
-Result<EditState> apply_event(const EventOp& op,
-                              const OpContext& context,
-                              const EditState& state,
-                              OpReport& /*report*/) {
-  if (const Status ok = check_op_keys(context.op, {}); !ok) return ok.error();
-  if (const Status ok = check_text(op.text, "text"); !ok) return ok.error();
-  const auto frame = resolve_moment(state, op.at);
+Status add_event(const EventOp& op,
+                 const EditOp& common,
+                 const Timeline& timeline,
+                 Annotations& annotations) {
+  if (const Status ok = check_op_keys(common, {}); !ok) return ok;
+  if (const Status ok = check_text(op.text, "text"); !ok) return ok;
+  const auto frame = resolve_moment(timeline, op.at);
   if (!frame) return frame.error();
-  EditState out = state;
-  const double time_s = *frame / state.motion.rate.hz;
-  insert_note({op.text, time_s, time_s}, out.annotations);
-  return out;
+  const double time_s = *frame / timeline.rate_hz;
+  insert_note({op.text, time_s, time_s}, annotations);
+  return Done{};
 }
 
-Result<EditState> apply_curve(const CurveOp& op,
-                              const OpContext& context,
-                              const EditState& state,
-                              OpReport& /*report*/) {
-  if (const Status ok = check_op_keys(context.op, {}); !ok) return ok.error();
-  if (const Status ok = check_text(op.name, "name"); !ok) return ok.error();
-  const auto keys = curve_keys(op, state);
+Status add_curve(const CurveOp& op,
+                 const EditOp& common,
+                 const Timeline& timeline,
+                 Annotations& annotations) {
+  if (const Status ok = check_op_keys(common, {}); !ok) return ok;
+  if (const Status ok = check_text(op.name, "name"); !ok) return ok;
+  const auto keys = curve_keys(op, timeline);
   if (!keys) return keys.error();
   ValueCurve curve{op.name, {}};
-  for (int frame = 0; frame < state.frame_count(); ++frame) {
+  for (int frame = 0; frame < timeline.frame_count; ++frame) {
     curve.values.push_back(value_at(*keys, frame));
   }
-  EditState out = state;
-  auto& curves = out.annotations.curves;
+  auto& curves = annotations.curves;
   const auto same = std::find_if(curves.begin(), curves.end(), [&](const ValueCurve& c) {
     return c.name == op.name;
   });
@@ -112,6 +109,36 @@ Result<EditState> apply_curve(const CurveOp& op,
   } else {
     curves.push_back(std::move(curve));
   }
+  return Done{};
+}
+
+Result<EditState> apply_tag(const TagOp& op,
+                            const OpContext& context,
+                            const EditState& state,
+                            OpReport& /*report*/) {
+  EditState out = state;
+  const Status ok = add_tag(op, context.op, timeline_of(state), out.annotations);
+  if (!ok) return ok.error();
+  return out;
+}
+
+Result<EditState> apply_event(const EventOp& op,
+                              const OpContext& context,
+                              const EditState& state,
+                              OpReport& /*report*/) {
+  EditState out = state;
+  const Status ok = add_event(op, context.op, timeline_of(state), out.annotations);
+  if (!ok) return ok.error();
+  return out;
+}
+
+Result<EditState> apply_curve(const CurveOp& op,
+                              const OpContext& context,
+                              const EditState& state,
+                              OpReport& /*report*/) {
+  EditState out = state;
+  const Status ok = add_curve(op, context.op, timeline_of(state), out.annotations);
+  if (!ok) return ok.error();
   return out;
 }
 

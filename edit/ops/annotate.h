@@ -4,6 +4,7 @@
 
 #include "edit/state/edit_state.h"
 #include "edit/state/op_report.h"
+#include "edit/state/timeline.h"
 
 #include "core/base/result.h"
 #include "core/edit/edit_ops.h"
@@ -32,5 +33,20 @@ namespace marey::edit {
                                             const OpContext& context,
                                             const EditState& state,
                                             OpReport& report);
+
+/// The same on the annotations alone. `common` has the span and the keys of all
+/// operations. After an error the annotations are as before.
+[[nodiscard]] Status add_tag(const TagOp& op,
+                             const EditOp& common,
+                             const Timeline& timeline,
+                             Annotations& annotations);
+[[nodiscard]] Status add_event(const EventOp& op,
+                               const EditOp& common,
+                               const Timeline& timeline,
+                               Annotations& annotations);
+[[nodiscard]] Status add_curve(const CurveOp& op,
+                               const EditOp& common,
+                               const Timeline& timeline,
+                               Annotations& annotations);
 
 }  // namespace marey::edit

@@ -6,6 +6,8 @@
 
 #include "edit/state/edit_state.h"
 #include "edit/state/op_report.h"
+#include "edit/state/resolve_moment.h"
+#include "edit/state/timeline.h"
 
 #include "core/base/result.h"
 #include "core/edit/edit_ops.h"
@@ -33,5 +35,15 @@ namespace marey::edit {
                                                          const OpContext& context,
                                                          const EditState& state,
                                                          OpReport& report);
+
+/// Returns the frames of a part: from its start, one frame apart. A start within 1e-6 of
+/// a frame is the frame's. At least one. Precondition: the span lies within the frames.
+[[nodiscard]] std::vector<double> frames_of_part(const ResolvedSpan& span,
+                                                 int frame_count);
+/// Returns the parts that the operations keep. Errors: theirs, but for common keys.
+[[nodiscard]] Result<std::vector<ResolvedSpan>> spans_of_keep(const KeepOp& op,
+                                                              const Timeline& timeline);
+[[nodiscard]] Result<std::vector<ResolvedSpan>> spans_of_split(const SplitOp& op,
+                                                               const Timeline& timeline);
 
 }  // namespace marey::edit

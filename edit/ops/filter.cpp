@@ -30,23 +30,6 @@ namespace {
 
 constexpr double kFilterDegrees = 180.0 / std::numbers::pi;
 
-Status check_filter(const FilterOp& op, double rate_hz) {
-  if (op.method == FilterMethod::kGcvSpline && op.order != 2 && op.order != 3) {
-    return bad_input("order",
-                     "is " + std::to_string(op.order),
-                     "give 2 (cubic spline) or 3 (quintic spline)");
-  }
-  const bool given =
-      op.method == FilterMethod::kButterworth && op.cutoff == CutoffRule::kGiven;
-  if (given && !(op.cutoff_hz > 0.0 && op.cutoff_hz < 0.5 * rate_hz)) {
-    return bad_input(
-        "cutoff_hz",
-        "is not between 0 and half the rate of " + std::to_string(rate_hz) + " Hz",
-        "give a lower cut-off, or leave it out");
-  }
-  return Done{};
-}
-
 std::vector<EditGroup> chosen_groups(const EditOp& op) {
   if (!op.groups.empty()) return op.groups;
   return {kEditGroups.begin(), kEditGroups.end()};
@@ -190,6 +173,23 @@ void hold_filtered_feet(const EditState& before,
 }
 
 }  // namespace
+
+Status check_filter(const FilterOp& op, double rate_hz) {
+  if (op.method == FilterMethod::kGcvSpline && op.order != 2 && op.order != 3) {
+    return bad_input("order",
+                     "is " + std::to_string(op.order),
+                     "give 2 (cubic spline) or 3 (quintic spline)");
+  }
+  const bool given =
+      op.method == FilterMethod::kButterworth && op.cutoff == CutoffRule::kGiven;
+  if (given && !(op.cutoff_hz > 0.0 && op.cutoff_hz < 0.5 * rate_hz)) {
+    return bad_input(
+        "cutoff_hz",
+        "is not between 0 and half the rate of " + std::to_string(rate_hz) + " Hz",
+        "give a lower cut-off, or leave it out");
+  }
+  return Done{};
+}
 
 Result<EditState> apply_filter(const FilterOp& op,
                                const OpContext& context,

@@ -31,4 +31,7 @@ namespace marey::edit {
                                              const EditState& state,
                                              OpReport& report);
 
+/// Checks order and cut-off of a filter for this rate. Errors: apply_filter()'s.
+[[nodiscard]] Status check_filter(const FilterOp& op, double rate_hz);
+
 }  // namespace marey::edit

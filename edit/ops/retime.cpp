@@ -30,11 +30,11 @@ Status check_speed(double speed, const char* key) {
                    "choose a speed between 0.05 and 20");
 }
 
-Result<std::vector<WarpKnot>> retime_knots(const RetimeOp& op, const EditState& state) {
-  const double hz = state.motion.rate.hz;
+Result<std::vector<WarpKnot>> retime_knots(const RetimeOp& op, const Timeline& timeline) {
+  const double hz = timeline.rate_hz;
   std::vector<WarpKnot> knots;
   for (const RetimeKnot& wanted : op.knots) {
-    const auto frame = resolve_moment(state, wanted.at);
+    const auto frame = resolve_moment(timeline, wanted.at);
     if (!frame) return frame.error();
     const WarpKnot knot{wanted.time_s, *frame / hz};
     if (knots.empty() && knot.source_s > 0.0) knots.push_back({0.0, 0.0});
@@ -59,14 +59,14 @@ Result<std::vector<WarpKnot>> retime_knots(const RetimeOp& op, const EditState& 
         "show the first frame at " + format_text("%.3f", knots.front().time_s) + " s",
         "let the first knot have time_s = 0, or begin with a later instant");
   }
-  if (state.duration_s() > knots.back().source_s) {
-    const double rest_s = state.duration_s() - knots.back().source_s;
-    knots.push_back({knots.back().time_s + rest_s, state.duration_s()});
+  if (timeline.duration_s() > knots.back().source_s) {
+    const double rest_s = timeline.duration_s() - knots.back().source_s;
+    knots.push_back({knots.back().time_s + rest_s, timeline.duration_s()});
   }
   return knots;
 }
 
-Result<std::vector<WarpKnot>> warp_of(const RetimeOp& op, const EditState& state) {
+Result<std::vector<WarpKnot>> warp_of(const RetimeOp& op, const Timeline& timeline) {
   const int choices =
       (op.knots.empty() ? 0 : 1) + (op.speed ? 1 : 0) + (op.duration_s ? 1 : 0);
   if (choices > 1 || (choices == 0 && !op.rate_hz)) {
@@ -75,54 +75,62 @@ Result<std::vector<WarpKnot>> warp_of(const RetimeOp& op, const EditState& state
                                  : "has none of knots, speed, duration_s and rate_hz",
                      "state one of them");
   }
-  if (!op.knots.empty()) return retime_knots(op, state);
+  if (!op.knots.empty()) return retime_knots(op, timeline);
   double speed = op.speed.value_or(1.0);
   if (op.duration_s) {
-    if (state.frame_count() < 2) {
+    if (timeline.frame_count < 2) {
       return bad_input("duration_s", "cannot stretch a single frame", "remove it");
     }
-    speed = state.duration_s() / *op.duration_s;
+    speed = timeline.duration_s() / *op.duration_s;
   }
   if (const Status ok = check_speed(speed, op.duration_s ? "duration_s" : "speed"); !ok) {
     return ok.error();
   }
-  const double end_s = state.frame_count() < 2 ? 1.0 : state.duration_s();
+  const double end_s = timeline.frame_count < 2 ? 1.0 : timeline.duration_s();
   return std::vector<WarpKnot>{{0.0, 0.0}, {end_s / speed, end_s}};
 }
 
 }  // namespace
+
+Result<RetimedFrames> retimed_frames(const RetimeOp& op, const Timeline& timeline) {
+  const auto knots = warp_of(op, timeline);
+  if (!knots) return knots.error();
+  RetimedFrames out;
+  out.rate_hz = op.rate_hz.value_or(timeline.rate_hz);
+  if (!(out.rate_hz >= 1.0 && out.rate_hz <= 10000.0)) {
+    return bad_input(
+        "rate_hz", "is " + format_text("%g", out.rate_hz), "choose 1 to 10000");
+  }
+  const double end_s = timeline.frame_count < 2 ? 0.0 : knots->back().time_s;
+  if (end_s * out.rate_hz > kMaxFrames) {
+    return bad_input("retime",
+                     "would give " + format_text("%.0f", end_s * out.rate_hz) + " frames",
+                     "choose a lower rate or a shorter duration");
+  }
+  const TimeWarp warp(*knots);
+  const double last = timeline.frame_count - 1;
+  const auto count = static_cast<std::size_t>(std::floor(end_s * out.rate_hz + 1e-6)) + 1;
+  for (std::size_t k = 0; k < count; ++k) {
+    double at = warp.source_s(static_cast<double>(k) / out.rate_hz) * timeline.rate_hz;
+    const double nearest = std::round(at);
+    if (std::abs(at - nearest) < kRetimeOnFrame * (1.0 + last)) at = nearest;
+    out.at_frame.push_back(std::clamp(at, 0.0, last));
+  }
+  while (out.at_frame.size() > 1 &&
+         out.at_frame[out.at_frame.size() - 2] >= out.at_frame.back()) {
+    out.at_frame.pop_back();
+  }
+  return out;
+}
 
 Result<EditState> apply_retime(const RetimeOp& op,
                                const OpContext& context,
                                const EditState& state,
                                OpReport& report) {
   if (const Status ok = check_op_keys(context.op, {}); !ok) return ok.error();
-  const auto knots = warp_of(op, state);
-  if (!knots) return knots.error();
-  const double rate_hz = op.rate_hz.value_or(state.motion.rate.hz);
-  if (!(rate_hz >= 1.0 && rate_hz <= 10000.0)) {
-    return bad_input("rate_hz", "is " + format_text("%g", rate_hz), "choose 1 to 10000");
-  }
-  const double end_s = state.frame_count() < 2 ? 0.0 : knots->back().time_s;
-  if (end_s * rate_hz > kMaxFrames) {
-    return bad_input("retime",
-                     "would give " + format_text("%.0f", end_s * rate_hz) + " frames",
-                     "choose a lower rate or a shorter duration");
-  }
-  const TimeWarp warp(*knots);
-  const double last = state.frame_count() - 1;
-  std::vector<double> at_frame;
-  const auto count = static_cast<std::size_t>(std::floor(end_s * rate_hz + 1e-6)) + 1;
-  for (std::size_t k = 0; k < count; ++k) {
-    double at = warp.source_s(static_cast<double>(k) / rate_hz) * state.motion.rate.hz;
-    const double nearest = std::round(at);
-    if (std::abs(at - nearest) < kRetimeOnFrame * (1.0 + last)) at = nearest;
-    at_frame.push_back(std::clamp(at, 0.0, last));
-  }
-  while (at_frame.size() > 1 && at_frame[at_frame.size() - 2] >= at_frame.back()) {
-    at_frame.pop_back();
-  }
-  EditState out = resample_state(state, at_frame, rate_hz);
+  const auto frames = retimed_frames(op, timeline_of(state));
+  if (!frames) return frames.error();
+  EditState out = resample_state(state, frames->at_frame, frames->rate_hz);
   touch(out.lineage, {0, out.frame_count() - 1}, context.index);
   report.figures.emplace_back("duration_s", out.duration_s());
   report.figures.emplace_back("slide_mm", measure_slide(out).worst_drift_mm);

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "edit/state/edit_state.h"
 #include "edit/state/op_report.h"
+#include "edit/state/timeline.h"
 
 #include "core/base/result.h"
 #include "core/edit/edit_ops.h"
@@ -21,5 +24,14 @@ namespace marey::edit {
                                              const OpContext& context,
                                              const EditState& state,
                                              OpReport& report);
+
+/// Frames of a retimed recording, as resample_state() takes them.
+struct RetimedFrames {
+  std::vector<double> at_frame;  ///< Ascends strictly.
+  double rate_hz = 0.0;
+};
+/// Errors: apply_retime()'s, but for common keys.
+[[nodiscard]] Result<RetimedFrames> retimed_frames(const RetimeOp& op,
+                                                   const Timeline& timeline);
 
 }  // namespace marey::edit

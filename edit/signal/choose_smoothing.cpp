@@ -190,20 +190,6 @@ class LatticeSearch {
   std::vector<int> best_;
 };
 
-/// Returns true if the channel is the line through its first and last sample, to
-/// rounding.
-bool is_straight_channel(std::span<const double> channel) {
-  const double first = channel.front();
-  const double slope = (channel.back() - first) / static_cast<double>(channel.size() - 1);
-  double size = 0.0;
-  double bend = 0.0;
-  for (std::size_t i = 0; i < channel.size(); ++i) {
-    size = std::max(size, std::abs(channel[i]));
-    bend = std::max(bend, std::abs(channel[i] - first - slope * static_cast<double>(i)));
-  }
-  return bend <= 1e-12 * size;
-}
-
 double median_log(std::vector<double> penalties) {
   std::sort(penalties.begin(), penalties.end());
   const std::size_t half = penalties.size() / 2;
@@ -280,6 +266,18 @@ void smooth_channel(SmoothingSpline& spline,
 }
 
 }  // namespace
+
+bool is_straight_channel(std::span<const double> channel) {
+  const double first = channel.front();
+  const double slope = (channel.back() - first) / static_cast<double>(channel.size() - 1);
+  double size = 0.0;
+  double bend = 0.0;
+  for (std::size_t i = 0; i < channel.size(); ++i) {
+    size = std::max(size, std::abs(channel[i]));
+    bend = std::max(bend, std::abs(channel[i] - first - slope * static_cast<double>(i)));
+  }
+  return bend <= 1e-12 * size;
+}
 
 ChosenPenalties choose_penalties(SmoothingChannels& channels,
                                  std::span<const std::vector<std::size_t>> groups,

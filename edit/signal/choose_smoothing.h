@@ -57,6 +57,10 @@ struct SmoothingReport {
   std::vector<GroupSmoothing> groups;
 };
 
+/// Returns true if the channel is the line through its first and last sample, to
+/// rounding. Precondition: at least 2 samples.
+[[nodiscard]] bool is_straight_channel(std::span<const double> channel);
+
 /// Penalties found by choose_penalties().
 struct ChosenPenalties {
   std::vector<double> channels;  ///< Each channel's own.

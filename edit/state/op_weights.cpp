@@ -73,14 +73,14 @@ std::vector<EditGroup> groups_of_joints(const Skeleton& skeleton) {
   return out;
 }
 
-Result<OpWeights> op_weights(const EditState& state, const EditOp& op) {
-  const auto span = resolve_span(state, op.span);
+Result<OpWeights> op_weights(const Timeline& timeline, const EditOp& op) {
+  const auto span = resolve_span(timeline, op.span);
   if (!span) return span.error();
   OpWeights out;
-  out.weight.resize(state.motion.poses.size());
+  out.weight.resize(static_cast<std::size_t>(timeline.frame_count));
   out.frames = {0, -1};
-  const double fade_frames = op.blend_s * state.motion.rate.hz;
-  for (int frame = 0; frame < state.frame_count(); ++frame) {
+  const double fade_frames = op.blend_s * timeline.rate_hz;
+  for (int frame = 0; frame < timeline.frame_count; ++frame) {
     const double outside =
         std::max({0.0, span->first - frame, static_cast<double>(frame) - span->last});
     double weight = outside <= 1e-9 ? 1.0 : 0.0;
@@ -93,6 +93,10 @@ Result<OpWeights> op_weights(const EditState& state, const EditOp& op) {
     out.frames.last = frame;
   }
   return out;
+}
+
+Result<OpWeights> op_weights(const EditState& state, const EditOp& op) {
+  return op_weights(timeline_of(state), op);
 }
 
 std::vector<JointIndex> joints_of_groups(const EditState& state,

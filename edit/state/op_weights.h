@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "edit/state/edit_state.h"
+#include "edit/state/timeline.h"
 
 #include "core/base/frame_range.h"
 #include "core/base/ids.h"
@@ -22,6 +23,7 @@ struct OpWeights {
   FrameRange frames;           ///< Frames with a weight above 0.
 };
 /// Errors: resolve_span()'s.
+[[nodiscard]] Result<OpWeights> op_weights(const Timeline& timeline, const EditOp& op);
 [[nodiscard]] Result<OpWeights> op_weights(const EditState& state, const EditOp& op);
 
 /// Returns the group of each joint. Joints without a bone belong to the group of their

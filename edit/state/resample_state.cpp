@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "edit/state/frame_places.h"
 #include "edit/state/time_map.h"
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -18,8 +19,8 @@
 namespace marey::edit {
 namespace {
 
-/// An instant this near to a frame is the frame's. [frames]
-constexpr double kSameFrame = 1e-9;
+/// Tolerance at the ends of the motion. [frames]
+constexpr double kBeyondEnd = 1e-9;
 
 // A posture that moved by more than this was not captured. [m]
 constexpr double kInvented_m = 0.010;
@@ -63,32 +64,11 @@ double spline_at(const std::vector<double>& values,
              6.0;
 }
 
-/// Place of a new frame between two old ones.
-struct Between {
-  std::size_t before = 0;
-  double share = 0.0;  ///< 0: the old frame itself.
-};
-
-std::vector<Between> places_between(std::span<const double> at_frame, std::size_t count) {
-  std::vector<Between> out;
-  out.reserve(at_frame.size());
-  for (const double at : at_frame) {
-    const double nearest = std::round(at);
-    if (std::abs(at - nearest) <= kSameFrame || count < 2) {
-      out.push_back({static_cast<std::size_t>(nearest), 0.0});
-      continue;
-    }
-    const auto before = std::min(static_cast<std::size_t>(at), count - 2);
-    out.push_back({before, at - static_cast<double>(before)});
-  }
-  return out;
-}
-
 /// Interpolates the rotation of one joint by splines through the components of its
 /// quaternions, which does not depend on the axes of parent or joint.
 void resample_joint(const Motion& from,
                     std::size_t joint,
-                    const std::vector<Between>& places,
+                    const std::vector<FramePlace>& places,
                     SplineSlopes& slopes,
                     Motion& out) {
   const std::size_t count = from.poses.size();
@@ -121,7 +101,7 @@ void resample_joint(const Motion& from,
 }
 
 void resample_root(const Motion& from,
-                   const std::vector<Between>& places,
+                   const std::vector<FramePlace>& places,
                    SplineSlopes& slopes,
                    Motion& out) {
   std::vector<double> values(from.poses.size());
@@ -140,15 +120,15 @@ void resample_root(const Motion& from,
 }
 
 Motion resample_motion(const Motion& from,
-                       const std::vector<Between>& places,
+                       const std::vector<FramePlace>& places,
                        double rate_hz) {
   Motion out{from.skeleton, FrameRate{rate_hz}, 0, {}};
   const std::size_t joints = from.skeleton.joints.size();
   const bool is_slice = std::all_of(
-      places.begin(), places.end(), [](const Between& b) { return b.share == 0.0; });
+      places.begin(), places.end(), [](const FramePlace& b) { return b.share == 0.0; });
   if (is_slice) {
     out.poses.reserve(places.size());
-    for (const Between& place : places) out.poses.push_back(from.poses[place.before]);
+    for (const FramePlace& place : places) out.poses.push_back(from.poses[place.before]);
     return out;
   }
   out.poses.resize(places.size());
@@ -159,13 +139,9 @@ Motion resample_motion(const Motion& from,
   return out;
 }
 
-Source worse_source(Source a, Source b) {
-  return static_cast<int>(a) > static_cast<int>(b) ? a : b;
-}
-
 std::vector<std::vector<JointUncertainty>> resample_uncertainty(
     const std::vector<std::vector<JointUncertainty>>& from,
-    const std::vector<Between>& places) {
+    const std::vector<FramePlace>& places) {
   std::vector<std::vector<JointUncertainty>> out;
   if (from.empty()) return out;
   out.reserve(places.size());
@@ -179,27 +155,6 @@ std::vector<std::vector<JointUncertainty>> resample_uncertainty(
       entry.source = worse_source(entry.source, next.source);
       entry.segment_source = worse_source(entry.segment_source, next.segment_source);
     }
-  }
-  return out;
-}
-
-Lineage resample_lineage(const Lineage& from, const std::vector<Between>& places) {
-  Lineage out;
-  out.touches = from.touches;
-  out.frames.reserve(places.size());
-  for (const auto& [before, share] : places) {
-    FrameLineage entry = from.frames[before];
-    if (share > 0.0) {
-      const FrameLineage& next = from.frames[before + 1];
-      const Source trust = worse_source(entry.trust, next.trust);
-      if (next.source == entry.source) {
-        entry.source_frame = glm::mix(entry.source_frame, next.source_frame, share);
-      } else if (share >= 0.5) {
-        entry = next;
-      }
-      entry.trust = trust;
-    }
-    out.frames.push_back(entry);
   }
   return out;
 }
@@ -254,9 +209,10 @@ EditState resample_state(const EditState& state,
                          std::span<const double> at_frame,
                          double rate_hz) {
   MAREY_ASSERT(rate_hz > 0.0 && !at_frame.empty());
-  MAREY_ASSERT(at_frame.front() >= -kSameFrame &&
-               at_frame.back() <= state.frame_count() - 1 + kSameFrame);
-  const std::vector<Between> places = places_between(at_frame, state.motion.poses.size());
+  MAREY_ASSERT(at_frame.front() >= -kBeyondEnd &&
+               at_frame.back() <= state.frame_count() - 1 + kBeyondEnd);
+  const std::vector<FramePlace> places =
+      frame_places(at_frame, state.motion.poses.size());
   const TimeMap times(at_frame, state.motion.rate.hz, rate_hz);
   EditState out;
   out.motion = resample_motion(state.motion, places, rate_hz);
@@ -266,17 +222,7 @@ EditState resample_state(const EditState& state,
   out.contacts = resample_contacts(state.contacts, at_frame);
   out.constraints = times.mapped(state.constraints);
   out.contact_edits = times.mapped(state.contact_edits);
-  out.annotations.notes = times.mapped(state.annotations.notes);
-  for (const ValueCurve& curve : state.annotations.curves) {
-    ValueCurve sampled{curve.name, {}};
-    sampled.values.reserve(places.size());
-    for (const auto& [before, share] : places) {
-      const double value = curve.values[before];
-      sampled.values.push_back(
-          share == 0.0 ? value : glm::mix(value, curve.values[before + 1], share));
-    }
-    out.annotations.curves.push_back(std::move(sampled));
-  }
+  out.annotations = resample_annotations(state.annotations, places, times);
   return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -23,12 +24,10 @@ bool comes_before(const Annotation& a, const Annotation& b) {
   return std::pair(a.start_s, a.text) < std::pair(b.start_s, b.text);
 }
 
-Error no_such_annotation(const EditState& state,
-                         const AtAnnotation& wanted,
-                         const std::vector<Annotation>& events) {
+Error no_such_annotation(const Timeline& timeline, const AtAnnotation& wanted) {
   std::vector<std::string_view> texts;
-  for (const Annotation& note : state.annotations.notes) texts.push_back(note.text);
-  for (const Annotation& event : events) texts.push_back(event.text);
+  for (const Annotation& note : timeline.notes) texts.push_back(note.text);
+  for (const Annotation& event : timeline.events) texts.push_back(event.text);
   std::sort(texts.begin(), texts.end());
   texts.erase(std::unique(texts.begin(), texts.end()), texts.end());
   std::string next = "state a time or a frame: the motion has no annotations";
@@ -37,23 +36,22 @@ Error no_such_annotation(const EditState& state,
       "motion", "has no annotation " + in_quotes(wanted.text) + " here", std::move(next));
 }
 
-Result<double> frame_of_annotation(const EditState& state,
+Result<double> frame_of_annotation(const Timeline& timeline,
                                    const AtAnnotation& wanted,
                                    AnnotationEnd end) {
   const auto frame_of = [&](const Annotation& note) {
-    return (end == AnnotationEnd::kStart ? note.start_s : note.end_s) *
-           state.motion.rate.hz;
+    return (end == AnnotationEnd::kStart ? note.start_s : note.end_s) * timeline.rate_hz;
   };
-  const std::vector<Annotation> events = contact_events(state);
   int count = 0;
-  for (const auto* notes : {&state.annotations.notes, &events}) {
-    for (const Annotation& note : *notes) {
+  for (const auto notes :
+       {timeline.notes, std::span<const Annotation>(timeline.events)}) {
+    for (const Annotation& note : notes) {
       if (note.text != wanted.text) continue;
       if (count++ == wanted.occurrence) return frame_of(note);
     }
     if (count > 0) break;
   }
-  if (count == 0) return no_such_annotation(state, wanted, events);
+  if (count == 0) return no_such_annotation(timeline, wanted);
   return bad_input("motion",
                    "has " + std::to_string(count) + " annotations " +
                        in_quotes(wanted.text) + ", numbered from 0; number " +
@@ -61,15 +59,15 @@ Result<double> frame_of_annotation(const EditState& state,
                    "choose a number from 0 to " + std::to_string(count - 1));
 }
 
-Result<double> checked(const EditState& state, double frame, std::string_view what) {
-  const double last = state.frame_count() - 1;
+Result<double> checked(const Timeline& timeline, double frame, std::string_view what) {
+  const double last = timeline.frame_count - 1;
   if (frame >= -kBeyondFrames && frame <= last + kBeyondFrames) {
     return std::clamp(frame, 0.0, last);
   }
   return bad_input("motion",
                    std::string(what) + " lies outside: it lasts " +
-                       format_text("%.3f", state.duration_s()) + " s, frames 0 to " +
-                       std::to_string(state.frame_count() - 1),
+                       format_text("%.3f", timeline.duration_s()) + " s, frames 0 to " +
+                       std::to_string(timeline.frame_count - 1),
                    "choose an instant within; times are of the motion as this operation "
                    "receives it");
 }
@@ -94,32 +92,48 @@ std::vector<Annotation> contact_events(const EditState& state) {
   return out;
 }
 
-Result<double> resolve_moment(const EditState& state,
+Timeline timeline_of(const EditState& state) {
+  return {state.frame_count(),
+          state.motion.rate.hz,
+          state.annotations.notes,
+          contact_events(state)};
+}
+
+Result<double> resolve_moment(const Timeline& timeline,
                               const Moment& moment,
                               AnnotationEnd end) {
   if (const auto* at = std::get_if<AtTime>(&moment)) {
-    return checked(state,
-                   at->time_s * state.motion.rate.hz,
+    return checked(timeline,
+                   at->time_s * timeline.rate_hz,
                    "time " + format_text("%.3f", at->time_s) + " s");
   }
   if (const auto* at = std::get_if<AtFrame>(&moment)) {
-    return checked(state, at->frame, "frame " + format_text("%g", at->frame));
+    return checked(timeline, at->frame, "frame " + format_text("%g", at->frame));
   }
   const auto& at = std::get<AtAnnotation>(moment);
-  const auto frame = frame_of_annotation(state, at, end);
+  const auto frame = frame_of_annotation(timeline, at, end);
   if (!frame) return frame.error();
-  return checked(state, *frame, "annotation " + in_quotes(at.text));
+  return checked(timeline, *frame, "annotation " + in_quotes(at.text));
 }
 
-Result<ResolvedSpan> resolve_span(const EditState& state, const EditSpan& span) {
-  ResolvedSpan out{0.0, static_cast<double>(state.frame_count() - 1)};
+Result<double> resolve_moment(const EditState& state,
+                              const Moment& moment,
+                              AnnotationEnd end) {
+  if (std::holds_alternative<AtAnnotation>(moment)) {
+    return resolve_moment(timeline_of(state), moment, end);
+  }
+  return resolve_moment(Timeline{state.frame_count(), state.motion.rate.hz}, moment, end);
+}
+
+Result<ResolvedSpan> resolve_span(const Timeline& timeline, const EditSpan& span) {
+  ResolvedSpan out{0.0, static_cast<double>(timeline.frame_count - 1)};
   if (span.from) {
-    const auto first = resolve_moment(state, *span.from, AnnotationEnd::kStart);
+    const auto first = resolve_moment(timeline, *span.from, AnnotationEnd::kStart);
     if (!first) return first.error();
     out.first = *first;
   }
   if (span.to) {
-    const auto last = resolve_moment(state, *span.to, AnnotationEnd::kEnd);
+    const auto last = resolve_moment(timeline, *span.to, AnnotationEnd::kEnd);
     if (!last) return last.error();
     out.last = *last;
   }
@@ -128,6 +142,10 @@ Result<ResolvedSpan> resolve_span(const EditState& state, const EditSpan& span) 
                    "ends at frame " + format_text("%.1f", out.last) +
                        ", before it starts at frame " + format_text("%.1f", out.first),
                    "exchange the two, or leave one out");
+}
+
+Result<ResolvedSpan> resolve_span(const EditState& state, const EditSpan& span) {
+  return resolve_span(timeline_of(state), span);
 }
 
 }  // namespace marey::edit

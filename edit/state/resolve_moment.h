@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "edit/state/edit_state.h"
+#include "edit/state/timeline.h"
 
 #include "core/base/result.h"
 #include "core/edit/annotation.h"
@@ -22,9 +23,12 @@ namespace marey::edit {
 enum class AnnotationEnd { kStart, kEnd };
 
 /// Returns the frame of an instant, with its fraction; within the motion.
-/// Annotations come before contact events of the same text.
+/// Annotations come before events of the same text.
 /// Errors (bad input): a time or frame beyond the motion by more than half a frame; an
 /// annotation that does not exist (the nearest text is suggested), or not so often.
+[[nodiscard]] Result<double> resolve_moment(const Timeline& timeline,
+                                            const Moment& moment,
+                                            AnnotationEnd end = AnnotationEnd::kStart);
 [[nodiscard]] Result<double> resolve_moment(const EditState& state,
                                             const Moment& moment,
                                             AnnotationEnd end = AnnotationEnd::kStart);
@@ -36,6 +40,8 @@ struct ResolvedSpan {
 };
 /// Returns the frames of a span. Errors: resolve_moment()'s; a span that ends before it
 /// starts.
+[[nodiscard]] Result<ResolvedSpan> resolve_span(const Timeline& timeline,
+                                                const EditSpan& span);
 [[nodiscard]] Result<ResolvedSpan> resolve_span(const EditState& state,
                                                 const EditSpan& span);
 

@@ -45,6 +45,18 @@ FileAxis right_of(FileAxis up) {
   return is_x ? FileAxis::kPlusY : FileAxis::kPlusX;
 }
 
+void put_unit(C3dInfo& info, const FileAxes& axes) {
+  put_parameter(info.groups, "POINT", text_parameter("UNITS", axes.unit));
+}
+
+void put_up(C3dInfo& info, const FileAxes& axes) {
+  put_parameter(info.groups,
+                "POINT",
+                text_parameter("X_SCREEN", std::string(name(right_of(axes.up)))));
+  put_parameter(
+      info.groups, "POINT", text_parameter("Y_SCREEN", std::string(name(axes.up))));
+}
+
 C3dInfo fresh_info(const MarkerFile& markers, const FileAxes& axes) {
   const MarkerTracks& tracks = markers.tracks;
   C3dInfo info;
@@ -59,12 +71,8 @@ C3dInfo fresh_info(const MarkerFile& markers, const FileAxes& axes) {
                          max_sigma(tracks, axes) / 255.0,
                          1e-6 * axes.per_metre});
   put_texts(info.groups, "POINT", "LABELS", tracks.labels);
-  put_parameter(info.groups, "POINT", text_parameter("UNITS", axes.unit));
-  put_parameter(info.groups,
-                "POINT",
-                text_parameter("X_SCREEN", std::string(name(right_of(axes.up)))));
-  put_parameter(
-      info.groups, "POINT", text_parameter("Y_SCREEN", std::string(name(axes.up))));
+  put_unit(info, axes);
+  put_up(info, axes);
   put_parameter(info.groups, "ANALOG", count_parameter("USED", 0));
   put_parameter(info.groups, "FORCE_PLATFORM", count_parameter("USED", 0));
   put_parameter(info.groups, "MANUFACTURER", text_parameter("SOFTWARE", "marey"));
@@ -96,11 +104,21 @@ bool same(const std::optional<MarkerSample>& a, const std::optional<MarkerSample
          a->cameras == b->cameras;
 }
 
+/// Replaces all events of a file. Other lists of the group EVENT have an entry per event,
+/// so they are dropped.
+void replace_events(C3dInfo& info, const std::vector<MarkerEvent>& events) {
+  info.header_events.clear();
+  for (C3dGroup& group : info.groups) {
+    if (group.name == "EVENT") group.parameters.clear();
+  }
+  put_events(info, events);
+}
+
 /// Writes the frames of the source file with the changed markers.
 class SourceCopy {
  public:
-  SourceCopy(const MarkerFile& markers, bool trust_all)
-      : markers_(markers), trust_all_(trust_all) {}
+  SourceCopy(const MarkerFile& markers, const MarkerWriteOptions& options, bool trust_all)
+      : markers_(markers), options_(options), trust_all_(trust_all) {}
 
   Status write(C3dReader reader,
                const std::filesystem::path& path,
@@ -110,36 +128,61 @@ class SourceCopy {
     const C3dMarkers found = markers_of(from, ignored);
     const MarkerTracks& tracks = markers_.tracks;
     if (found.labels != tracks.labels ||
-        (!found.labels.empty() &&
-         static_cast<std::size_t>(from.frames) != tracks.frames())) {
+        (!found.labels.empty() && !has_frames(static_cast<std::size_t>(from.frames)))) {
       return bad_input(source,
                        "it holds other markers or frames than those to be written",
                        "give the file that they were read from");
     }
+    const C3dInfo to = target_info(from);
+    Result<C3dWriter> writer = C3dWriter::create(path, to);
+    if (!writer) return writer.error();
+    const bool widened = to.numbers != from.numbers;
+    const std::size_t skipped = options_.source_first.value_or(0);
+    const auto count = static_cast<std::size_t>(to.frames);
+    C3dFrame frame;
+    for (std::size_t f = 0; f < skipped + count; ++f) {
+      const Result<bool> more = reader.next(frame);
+      if (!more) return more.error();
+      if (!*more) break;
+      if (f < skipped) continue;
+      replace(from, found, f - skipped, frame);
+      if (widened) widen(from, frame);
+      writer->append(frame);
+    }
+    return writer->commit();
+  }
+
+ private:
+  [[nodiscard]] bool has_frames(std::size_t source_frames) const {
+    const std::size_t frames = markers_.tracks.frames();
+    const auto& first = options_.source_first;
+    if (!first) return frames == source_frames;
+    return *first <= source_frames && frames <= source_frames - *first;
+  }
+
+  [[nodiscard]] C3dInfo target_info(const C3dInfo& from) const {
     C3dInfo to = from;
+    if (options_.source_first) {
+      to.first_frame += static_cast<int>(*options_.source_first);
+      to.frames = static_cast<std::int64_t>(markers_.tracks.frames());
+    }
+    if (markers_.events != events_of(from)) replace_events(to, markers_.events);
+    if (options_.state_axes) {
+      if (markers_.axes.up_from != Evidence::kFile) put_up(to, markers_.axes);
+      if (markers_.axes.unit_from != Evidence::kFile) put_unit(to, markers_.axes);
+    }
     // It would refer to a section that is not written.
     if (has_rotations(from)) {
       std::erase_if(to.groups, [](const C3dGroup& g) { return g.name == "ROTATION"; });
     }
     // Integers have 32767 steps; larger coordinates need reals.
-    const double furthest = max_coordinate(tracks, markers_.axes);
-    const bool widened =
-        from.numbers == C3dNumbers::kInteger && furthest > kMaxInteger * from.scale;
-    if (widened) to.numbers = C3dNumbers::kReal;
-    Result<C3dWriter> writer = C3dWriter::create(path, to);
-    if (!writer) return writer.error();
-    C3dFrame frame;
-    for (std::size_t f = 0;; ++f) {
-      const Result<bool> more = reader.next(frame);
-      if (!more) return more.error();
-      if (!*more) return writer->commit();
-      replace(from, found, f, frame);
-      if (widened) widen(from, frame);
-      writer->append(frame);
+    const double furthest = max_coordinate(markers_.tracks, markers_.axes);
+    if (from.numbers == C3dNumbers::kInteger && furthest > kMaxInteger * from.scale) {
+      to.numbers = C3dNumbers::kReal;
     }
+    return to;
   }
 
- private:
   void replace(const C3dInfo& info,
                const C3dMarkers& found,
                std::size_t f,
@@ -160,6 +203,7 @@ class SourceCopy {
   }
 
   const MarkerFile& markers_;
+  const MarkerWriteOptions& options_;
   bool trust_all_;
 };
 
@@ -179,7 +223,7 @@ Status write_c3d_markers(const std::filesystem::path& path,
   if (!trust_all) return trust_all.error();
   Result<C3dReader> reader = C3dReader::open(*options.source);
   if (!reader) return reader.error();
-  return SourceCopy(markers, *trust_all)
+  return SourceCopy(markers, options, *trust_all)
       .write(*std::move(reader), path, options.source->string());
 }
 

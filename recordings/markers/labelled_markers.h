@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@ struct MarkerEvent {
   std::string context;  ///< "Left"; may be empty.
   std::string subject;  ///< May be empty.
   double time_s = 0.0;  ///< On the clock of the tracks.
+  bool operator==(const MarkerEvent&) const = default;
 };
 
 /// Content of a file of labelled markers.
@@ -43,8 +45,14 @@ struct MarkerWriteOptions {
   std::optional<FileAxes> axes;
   /// A C3D that these markers were read from. Its other content is kept (parameters,
   /// analog channels, points that are no markers, the type of its numbers), and so are
-  /// the words of unchanged samples.
+  /// the words of unchanged samples. Events that differ from the source's replace them.
   std::optional<std::filesystem::path> source;
+  /// Index of the source's frame that is the first one of these markers, for a part of
+  /// the source: the other content is cut alike. nullopt: they have all frames.
+  std::optional<std::size_t> source_first;
+  /// Axes and unit that the source does not state, or states wrongly, are stated in the
+  /// copy (POINT:X_SCREEN, Y_SCREEN, UNITS), so that a part of it is read alike.
+  bool state_axes = false;
 };
 
 }  // namespace marey::recordings

@@ -35,9 +35,10 @@ namespace marey::recordings {
 /// file returns the same values: from a TRC within one unit in the last place (exactly if
 /// they were read from a TRC, or are written in metres), from a C3D within the precision
 /// of its 32-bit reals. A C3D stores sigma and cameras, except for repaired and inferred
-/// samples; a TRC stores positions alone. Errors (kBadInput): another extension; a source
-/// with different markers; more data than the format can store; errors of AtomicFile.
-/// Preconditions: positions are finite; the rate is above 0.
+/// samples, and up to 255 events; a TRC stores positions alone. Errors (kBadInput):
+/// another extension; a source with different markers or frames; more data than the
+/// format can store; errors of AtomicFile. Preconditions: positions are finite; the rate
+/// is above 0.
 [[nodiscard]] Status write_markers(const std::filesystem::path& path,
                                    const MarkerFile& markers,
                                    const MarkerWriteOptions& options = {});
