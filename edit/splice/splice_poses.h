@@ -18,7 +18,8 @@ namespace marey::edit {
                                        const EditState& second,
                                        const JoinFrames& frames);
 
-/// Mixes the poses of the overlap by its weights: rotations the way that is
+/// Mixes the poses of the overlap by its weights, trunk, head and arms by their own:
+/// rotations the way that is
 /// shorter at the join, which they keep over the overlap; the root linearly. The root is
 /// then moved so that the feet that bear in `out` go from their place in the first motion
 /// to that in the second one: without it the mixed legs would make them slide (design of
