@@ -304,7 +304,7 @@ PlantNearReport plant_feet_near(EditState& state,
   }
   report.changed = changed_frames(planned);
   if (report.changed.first <= report.changed.last) {
-    report.plant = set_feet(state, planned);
+    report.plant = set_feet(state, planned, {{}, true});
   }
   return report;
 }
