@@ -24,14 +24,13 @@
 namespace marey::edit {
 namespace {
 
-// Overlaps of root and legs that are tried if none is given. [s]
+// Overlaps of root and legs that are tried if none is given, and decays of displacements
+// without an overlap. [s]
 constexpr double kMinOverlap_s = 0.3;
 constexpr std::array<double, 4> kOverlaps_s{kMinOverlap_s, 0.45, 0.6, 0.9};
 // Longer ones of trunk, head and arms. A hand crosses 0.8 m within 0.9 s with 6 m/s^2.
 // [s]
 constexpr std::array<double, 4> kUpperOverlaps_s{0.45, 0.6, 0.9, 1.2};
-// Fade of the displacements of a join without an overlap, if no other is given. [s]
-constexpr double kSpliceBlend_s = 0.3;
 // A larger difference of postures is reported. [leg lengths]
 constexpr double kFitGap_legs = 0.15;
 // A larger peak of a joint's acceleration against both motions' is avoided and reported.
@@ -191,7 +190,11 @@ JoinChoices join_choices(const SpliceOp& op,
   JoinChoices out;
   out.pairs = std::move(pairs);
   out.align = op.align;
-  out.blend_frames = frames(common.blend_s > 0.0 ? common.blend_s : kSpliceBlend_s);
+  if (common.blend_s > 0.0) {
+    out.blends = {frames(common.blend_s)};
+  } else {
+    for (const double time_s : kOverlaps_s) out.blends.push_back(frames(time_s));
+  }
   if (op.overlap_s) {
     out.overlaps = {frames(*op.overlap_s)};
     return out;

@@ -15,9 +15,10 @@
 namespace marey::edit {
 namespace {
 
-// Part of a motion before and after the pair in which joins are tried. [s]
-constexpr double kTriedBefore_s = 4.0;
-constexpr double kTriedAfter_s = 4.0;
+// Part of a motion in which joins are tried: on the side of the pair that the result
+// shows, and beyond it, where only the overlap does. [s]
+constexpr double kShown_s = 4.0;
+constexpr double kBeyond_s = 1.0;
 
 // A join that was made and measured.
 struct JoinTrial {
@@ -33,13 +34,15 @@ bool is_better(const JoinTrial& a, const JoinTrial& b) {
   return a.peak_m_per_s2 < b.peak_m_per_s2;
 }
 
-// Cuts a motion to the frames round a place.
-EditState cut_round(const EditState& state, int frame, FrameRange& kept) {
+// Frames round a place, as far as the motion has them.
+FrameRange frames_round(const EditState& state,
+                        int frame,
+                        double before_s,
+                        double after_s) {
   const double hz = state.motion.rate.hz;
-  kept.first = std::max(0, frame - static_cast<int>(std::lround(kTriedBefore_s * hz)));
-  kept.last = std::min(state.frame_count() - 1,
-                       frame + static_cast<int>(std::lround(kTriedAfter_s * hz)));
-  return slice_state(state, kept);
+  return {std::max(0, frame - static_cast<int>(std::lround(before_s * hz))),
+          std::min(state.frame_count() - 1,
+                   frame + static_cast<int>(std::lround(after_s * hz)))};
 }
 
 // Makes and measures joins of one pair.
@@ -47,10 +50,10 @@ class PairTrials {
  public:
   PairTrials(const EditState& first, const EditState& second, const SpliceCandidate& pair)
       : pair_(pair) {
-    FrameRange kept_a;
-    FrameRange kept_b;
-    first_ = cut_round(first, pair.leave, kept_a);
-    second_ = cut_round(second, pair.enter, kept_b);
+    const FrameRange kept_a = frames_round(first, pair.leave, kShown_s, kBeyond_s);
+    const FrameRange kept_b = frames_round(second, pair.enter, kBeyond_s, kShown_s);
+    first_ = slice_state(first, kept_a);
+    second_ = slice_state(second, kept_b);
     local_ = pair;
     local_.leave -= kept_a.first;
     local_.enter -= kept_b.first;
@@ -96,25 +99,38 @@ bool keep_better(const JoinTrial& trial, double limit, JoinTrial& best) {
   return trial.is_seamless || (trial.reaches && trial.peak_m_per_s2 <= limit);
 }
 
-// Tries the joins of one pair; returns true if one is good enough.
-bool try_pair(const PairTrials& trials, const JoinChoices& choices, JoinTrial& best) {
+// Tries the joins of one pair with one overlap; returns true if one is good enough.
+bool try_overlap(const PairTrials& trials,
+                 const JoinChoices& choices,
+                 int overlap,
+                 JoinTrial& best) {
   JoinPlan plan;
-  plan.blend_frames = choices.blend_frames;
+  plan.overlap_frames = overlap;
+  plan.blend_frames = choices.blends.front();
   plan.align = choices.align;
-  for (const int overlap : choices.overlaps) {
-    plan.overlap_frames = overlap;
-    plan.upper_frames = 0;
-    JoinTrial trial = trials.make(plan);
-    if (keep_better(trial, choices.max_m_per_s2, best)) return true;
-    for (const int upper : choices.upper_overlaps) {
-      if (!trial.is_upper) break;
-      if (upper <= overlap) continue;
-      plan.upper_frames = upper;
-      trial = trials.make(plan);
-      if (keep_better(trial, choices.max_m_per_s2, best)) return true;
+  JoinTrial trial = trials.make(plan);
+  if (keep_better(trial, choices.max_m_per_s2, best)) return true;
+  if (overlap == 0) {
+    for (std::size_t k = 1; k < choices.blends.size(); ++k) {
+      plan.blend_frames = choices.blends[k];
+      if (keep_better(trials.make(plan), choices.max_m_per_s2, best)) return true;
     }
+    return false;
+  }
+  for (const int upper : choices.upper_overlaps) {
+    if (!trial.is_upper) break;
+    if (upper <= overlap) continue;
+    plan.upper_frames = upper;
+    trial = trials.make(plan);
+    if (keep_better(trial, choices.max_m_per_s2, best)) return true;
   }
   return false;
+}
+
+bool try_pair(const PairTrials& trials, const JoinChoices& choices, JoinTrial& best) {
+  return std::any_of(choices.overlaps.begin(), choices.overlaps.end(), [&](int overlap) {
+    return try_overlap(trials, choices, overlap, best);
+  });
 }
 
 }  // namespace
@@ -128,7 +144,7 @@ JoinPlan choose_join(const EditState& first,
   best.plan = {choices.pairs.front(),
                choices.overlaps.front(),
                0,
-               choices.blend_frames,
+               choices.blends.front(),
                choices.align};
   for (const SpliceCandidate& pair : choices.pairs) {
     if (try_pair(PairTrials(first, second, pair), choices, best)) break;

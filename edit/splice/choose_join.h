@@ -17,7 +17,9 @@ struct JoinChoices {
   std::vector<int> overlaps;
   /// Longer overlaps of trunk, head and arms, shortest first; may be empty. [frames]
   std::vector<int> upper_overlaps;
-  int blend_frames = 0;
+  /// Decays of the displacements of a join without an overlap, shortest first; not empty.
+  /// [frames]
+  std::vector<int> blends;
   bool align = true;
   /// A join with a lower peak is good enough. [m/s^2]
   double max_m_per_s2 = 0.0;
@@ -27,9 +29,10 @@ struct JoinChoices {
 /// feet reach their footprints; if there is none, the one with the lowest peak of those
 /// whose feet reach, else of all. Joins are made and measured in turn: pairs in their
 /// order; for each the overlaps from the shortest on; for each the upper overlaps from
-/// the shortest on, as long as a joint of the upper body has the peak. Long motions are
-/// cut to some seconds round the pair for this. Cost: a join of these seconds for each.
-/// Precondition: as join_motions().
+/// the shortest on, as long as a joint of the upper body has the peak. Without an
+/// overlap, the decays take their place. Long motions are cut to some seconds round the
+/// pair for this. Cost: a join of these seconds for each. Precondition: as
+/// join_motions().
 [[nodiscard]] JoinPlan choose_join(const EditState& first,
                                    const EditState& second,
                                    const JoinChoices& choices);
