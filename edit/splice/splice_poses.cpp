@@ -116,7 +116,8 @@ struct JoinPoses {
 SideDecay decay_of(const JoinPoses& join, bool is_first, int length) {
   SideDecay out;
   out.length = length;
-  out.rate_length = std::min(1.0 * length, std::max(1.0, kVelocityFade_s * join.hz));
+  out.rate_length =
+      std::min(1.0 * length, std::max({1.0, kVelocityFade_s * join.hz, 0.5 * length}));
   const double share = is_first ? join.share_a : join.share_a - 1.0;
   // Time runs away from the join: backwards on the first side.
   const double sense = is_first ? -1.0 : 1.0;
