@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -200,13 +199,9 @@ struct SpliceRun {
   int enter = 0;
 };
 
-/// Joins two clips by the operation. Without an overlap, it chooses one.
-inline Result<SpliceRun> splice(const EditState& a,
-                                const EditState& b,
-                                std::optional<double> overlap_s) {
-  SpliceOp op;
+/// Joins two clips by the operation, as `op` says.
+inline Result<SpliceRun> splice(const EditState& a, const EditState& b, SpliceOp op) {
   op.source = "next";
-  op.overlap_s = overlap_s;
   EditOp with;
   with.parameters = op;
   edit::EditInputs inputs;

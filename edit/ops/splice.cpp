@@ -160,8 +160,10 @@ void report_acceleration(const SpliceOp& op,
   report.figures.emplace_back("acceleration_ratio", ratio);
   if (ratio <= kMaxAccelerationRatio) return;
   const bool is_free = !op.at && !op.enter_at;
-  const char* next = "use a motion that begins more as this one ends, or accept the join";
-  if (op.overlap_s) {
+  const char* next = "use a motion that begins as this one ends";
+  if (op.overlap_s == 0.0) {
+    next = "leave out overlap_s, or give a longer blend_s";
+  } else if (op.overlap_s) {
     next = "leave out overlap_s, or give a longer one";
   } else if (!is_free) {
     next = "leave out at and enter_at for the best frames";

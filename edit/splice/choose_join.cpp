@@ -24,6 +24,7 @@ constexpr double kBeyond_s = 1.0;
 struct JoinTrial {
   JoinPlan plan;
   bool is_seamless = false;
+  bool has_overlap = false;
   bool reaches = true;
   double peak_m_per_s2 = 0.0;
   bool is_upper = false;  // The joint of the peak is one of trunk, head and arms.
@@ -68,6 +69,7 @@ class PairTrials {
     plan.pair = local_;
     const JoinedMotion joined = join_motions(first_, second_, plan, 0);
     out.is_seamless = joined.is_seamless;
+    out.has_overlap = joined.overlap.last() > 0;
     if (joined.is_seamless) return out;
     const auto peak = peak_acceleration(
         joined.state.motion, {joined.changed.first - 1, joined.changed.last + 1});
@@ -99,38 +101,39 @@ bool keep_better(const JoinTrial& trial, double limit, JoinTrial& best) {
   return trial.is_seamless || (trial.reaches && trial.peak_m_per_s2 <= limit);
 }
 
-// Tries the joins of one pair with one overlap; returns true if one is good enough.
-bool try_overlap(const PairTrials& trials,
-                 const JoinChoices& choices,
-                 int overlap,
-                 JoinTrial& best) {
-  JoinPlan plan;
-  plan.overlap_frames = overlap;
-  plan.blend_frames = choices.blends.front();
-  plan.align = choices.align;
-  JoinTrial trial = trials.make(plan);
-  if (keep_better(trial, choices.max_m_per_s2, best)) return true;
-  if (overlap == 0) {
-    for (std::size_t k = 1; k < choices.blends.size(); ++k) {
-      plan.blend_frames = choices.blends[k];
-      if (keep_better(trials.make(plan), choices.max_m_per_s2, best)) return true;
-    }
-    return false;
-  }
-  for (const int upper : choices.upper_overlaps) {
-    if (!trial.is_upper) break;
-    if (upper <= overlap) continue;
-    plan.upper_frames = upper;
-    trial = trials.make(plan);
-    if (keep_better(trial, choices.max_m_per_s2, best)) return true;
+// Tries longer decays of a join without an overlap; returns true if one is good enough.
+bool try_blends(const PairTrials& trials,
+                const JoinChoices& choices,
+                JoinPlan plan,
+                JoinTrial& best) {
+  for (std::size_t k = 1; k < choices.blends.size(); ++k) {
+    plan.blend_frames = choices.blends[k];
+    if (keep_better(trials.make(plan), choices.max_m_per_s2, best)) return true;
   }
   return false;
 }
 
+// Tries the joins of one pair; returns true if one is good enough.
 bool try_pair(const PairTrials& trials, const JoinChoices& choices, JoinTrial& best) {
-  return std::any_of(choices.overlaps.begin(), choices.overlaps.end(), [&](int overlap) {
-    return try_overlap(trials, choices, overlap, best);
-  });
+  JoinPlan plan;
+  plan.blend_frames = choices.blends.front();
+  plan.align = choices.align;
+  for (const int overlap : choices.overlaps) {
+    plan.overlap_frames = overlap;
+    plan.upper_frames = 0;
+    JoinTrial trial = trials.make(plan);
+    if (keep_better(trial, choices.max_m_per_s2, best)) return true;
+    // At the end of a motion longer overlaps have no frames either.
+    if (!trial.has_overlap) return try_blends(trials, choices, plan, best);
+    for (const int upper : choices.upper_overlaps) {
+      if (!trial.is_upper) break;
+      if (upper <= overlap) continue;
+      plan.upper_frames = upper;
+      trial = trials.make(plan);
+      if (keep_better(trial, choices.max_m_per_s2, best)) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ struct PeakAcceleration {
 /// joints.
 [[nodiscard]] PeakAcceleration peak_acceleration(const Motion& motion,
                                                  const FrameRange& frames);
-/// The same over the whole motion.
+/// Returns the peak over the whole motion.
 [[nodiscard]] PeakAcceleration peak_acceleration(const Motion& motion);
 
 }  // namespace marey::edit

@@ -10,7 +10,7 @@
 
 namespace marey::edit {
 
-/// The frames in which a splice shows both motions. Entry k of the three vectors belongs
+/// The frames in which a splice shows both motions. Entry k of the vectors belongs
 /// to one frame of the result. A splice without an overlap has one entry, the join.
 struct SpliceOverlap {
   std::vector<double> first_at;   ///< Frame of the first motion, with its fraction.
@@ -43,7 +43,7 @@ struct SpliceOverlapOptions {
 /// motion: half of it before these frames and half after, as far as both motions have
 /// frames there; else more on the other side; else it is shorter. Both motions enter and
 /// leave it with their own speed. Trunk, head and arms may have a longer one round the
-/// same frames: hands move further than feet, and hold nothing.
+/// same frames: hands that are in different places have further to go than feet.
 ///
 /// Touch-downs and lift-offs of the same foot that are less than 0.12 s apart are aligned
 /// by a monotone C2 time warp of each motion with rates between 0.5 and 2, as in

@@ -32,7 +32,7 @@ void mix_overlap(const EditState& first,
 
 /// Moves both sides of a join without an overlap towards each other: half of the gap
 /// between the poses each, which decays over `blend_frames`, and half of the gap between
-/// their velocities, which decays over at most 0.15 s, with continuous speed and
+/// their velocities, which decays over half of that or 0.15 s, with continuous speed and
 /// acceleration (quintics). A side with fewer
 /// frames has less time; a side with one frame leaves the gap to the other. Values and
 /// velocities meet at the join. Returns the frames that changed; last < first: none.
