@@ -47,9 +47,9 @@ struct FindSpliceOptions {
   /// Cost of unlike contacts: the weights of distances are masses, in which a foot that
   /// stands and one that swings hardly differ. [m/s]
   double unlike_m_per_s = 0.3;
-  /// Cost of pelvises that face different directions: this at a right angle. The
-  /// best move of two windows that travel in opposite directions relative to the body may
-  /// turn one of them round. [m]
+  /// Cost of pelvises that face different directions, at a right angle. The best move of
+  /// two windows that travel in opposite directions relative to the body may turn one of
+  /// them round. [m]
   double facing_m = 0.4;
   bool align = true;  ///< False: the second motion is not moved, its place counts.
   /// Pairs that stand on opposite feet are accepted.

@@ -41,12 +41,12 @@ namespace marey::edit {
 /// Frames of the overlap, and those displaced by more than 10 mm, are inferred. Figures:
 /// leave_frame, enter_frame, gap_mm (difference of joints at the join, rms),
 /// velocity_gap_m_per_s, unchanged (1: identical frames), overlap_s (root and legs),
-/// upper_overlap_s (trunk, head and arms), aligned_edges,
-/// warp_ms, opposed_s (time on opposite feet), acceleration_ratio (peak of a joint in the
-/// frames that changed over that of both motions), turn_deg, shift_x_m, shift_z_m,
-/// raised_mm, footprint_moved_mm, slide_before_mm, slide_after_mm, displaced_mm.
-/// Findings: "acceleration", "gap", "flight", "supports", "overlap", "place", "reach",
-/// "candidates", "rate", "body", "uncertainty".
+/// upper_overlap_s (trunk, head and arms), aligned_edges, warp_ms, opposed_s (time on
+/// opposite feet), acceleration_ratio (peak of a joint in the frames that changed over
+/// that of both motions), turn_deg, shift_x_m, shift_z_m, raised_mm, footprint_moved_mm,
+/// slide_before_mm, slide_after_mm, displaced_mm. Findings: "acceleration", "gap",
+/// "flight", "supports", "overlap", "place", "reach", "candidates", "rate", "body",
+/// "uncertainty".
 ///
 /// Errors (bad input): no such source; groups; blend_s with an overlap; a span together
 /// with `at`; a span without a whole frame; resolve_moment()'s; no pair of frames that

@@ -30,9 +30,9 @@ struct JoinChoices {
 /// whose feet reach, else of all. Joins are made and measured in turn: pairs in their
 /// order; for each the overlaps from the shortest on; for each the upper overlaps from
 /// the shortest on, as long as a joint of the upper body has the peak. Without an
-/// overlap, the decays take their place. Long motions are cut to some seconds round the
-/// pair for this. Cost: a join of these seconds for each. Precondition: as
-/// join_motions().
+/// overlap, or without frames for one, the decays take their place. Long motions are cut
+/// to some seconds round the pair for this. Cost: a join of these seconds for each trial.
+/// Precondition: as join_motions().
 [[nodiscard]] JoinPlan choose_join(const EditState& first,
                                    const EditState& second,
                                    const JoinChoices& choices);
