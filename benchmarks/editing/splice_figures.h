@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "edit/find/find_splice.h"
+#include "edit/ops/splice.h"
 #include "edit/state/edit_state.h"
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/base/result.h"
 #include "core/pose.h"
 #include "retarget/contacts/detect_contacts.h"
 #include "retarget/contacts/frame_marks.h"
@@ -179,6 +181,52 @@ inline Joined crossfade(const EditState& a, const EditState& b, int leave, int e
     out.shown.push_back(share < 0.5 ? ShownFrame{0, static_cast<int>(in_a)}
                                     : ShownFrame{1, static_cast<int>(in_b)});
   }
+  return out;
+}
+
+inline double figure_of(const edit::OpReport& report, const std::string& name) {
+  for (const auto& [key, value] : report.figures) {
+    if (key == name) return value;
+  }
+  return 0.0;
+}
+
+/// A splice, as a joined motion.
+struct SpliceRun {
+  Joined joined;
+  edit::OpReport report;
+  int leave = 0;
+  int enter = 0;
+};
+
+/// Joins two clips by the operation, as `op` says.
+inline Result<SpliceRun> splice(const EditState& a, const EditState& b, SpliceOp op) {
+  op.source = "next";
+  EditOp with;
+  with.parameters = op;
+  edit::EditInputs inputs;
+  inputs.sources.emplace("next", b);
+  SpliceRun out;
+  const auto made = edit::apply_splice(op, {with, 0, inputs}, a, out.report);
+  if (!made) return made.error();
+  out.leave = static_cast<int>(figure_of(out.report, "leave_frame"));
+  out.enter = static_cast<int>(figure_of(out.report, "enter_frame"));
+  out.joined.motion = made->motion;
+  int join = -1;
+  for (const edit::FrameLineage& entry : made->lineage.frames) {
+    const EditState& clip = entry.source == 0 ? a : b;
+    out.joined.shown.push_back(
+        {entry.source,
+         std::clamp(static_cast<int>(std::lround(entry.source_frame)),
+                    0,
+                    clip.frame_count() - 1)});
+    if (entry.source == 0) ++join;
+  }
+  const double shown_s = std::max(kOverlap_s, figure_of(out.report, "overlap_s"));
+  const int half = static_cast<int>(std::ceil(0.5 * shown_s * a.motion.rate.hz));
+  out.joined.join = join;
+  out.joined.first = std::max(0, join - half);
+  out.joined.last = std::min(made->frame_count() - 1, join + half);
   return out;
 }
 

@@ -41,8 +41,9 @@ struct SpliceOp {
   std::string source{};        ///< Id of the source that follows.
   std::optional<Moment> at{};  ///< Leaves this motion here; nullopt: the best frame.
   std::optional<Moment> enter_at{};  ///< Enters the other here; nullopt: the best frame.
-  /// Time that both overlap. 0: none; both are displaced towards each other. [s]
-  double overlap_s = 0.3;
+  /// Time that both overlap. 0: none; both are displaced towards each other. nullopt: 0.3
+  /// s, or longer where a joint would accelerate more than in both motions. [s]
+  std::optional<double> overlap_s{};
   /// The other source is turned and moved about the vertical so that it fits.
   bool align = true;
 };

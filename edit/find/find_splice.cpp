@@ -12,12 +12,15 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
+#include "core/pose.h"
+#include "retarget/body/rotation_from_t_pose.h"
 #include "retarget/contacts/frame_marks.h"
 #include "retarget/feet/adapt_to_ground.h"
 
 namespace marey::edit {
 namespace {
 
+constexpr double kWholeTurn_rad = 6.283185307179586477;
 constexpr double kMaxGridPairs = 40'000.0;
 // Places of the grid that are searched frame by frame.
 constexpr std::size_t kRefinedPlaces = 12;
@@ -73,6 +76,20 @@ double floor_of(const EditState& state) {
                                   retarget::ankles_rest_m(state.map, state.contacts));
 }
 
+// Direction of the pelvis on the floor in each frame, as an angle from +Z to +X. [rad]
+std::vector<double> facings_of(const EditState& state) {
+  std::vector<double> out;
+  std::vector<RigidTransform> joints(state.motion.skeleton.joints.size());
+  for (const Pose& pose : state.motion.poses) {
+    world_from_joints(state.motion.skeleton, pose, joints);
+    const glm::dvec3 ahead =
+        retarget::rotation_from_t_pose(state.map, joints, state.map.hips()) *
+        glm::dvec3(0.0, 0.0, 1.0);
+    out.push_back(std::atan2(ahead.x, ahead.z));
+  }
+  return out;
+}
+
 class SpliceSearch {
  public:
   SpliceSearch(const EditState& first,
@@ -82,6 +99,8 @@ class SpliceSearch {
         b_(match_points(second.motion, second.map)),
         stands_a_(marks_of_stances(first.contacts)),
         stands_b_(marks_of_stances(second.contacts)),
+        facing_a_(facings_of(first)),
+        facing_b_(facings_of(second)),
         hz_(first.motion.rate.hz),
         options_(options) {
     if (!options.align) return;
@@ -101,7 +120,12 @@ class SpliceSearch {
         pair.match = options_.align ? match_windows(a_, i, b_, j, options_.match)
                                     : match_in_place(a_, i, b_, j, options_.match);
         pair.unlike_s = unlike_s(i, j);
-        pair.cost_m = pair.match.distance_m + options_.unlike_m_per_s * pair.unlike_s;
+        pair.facing_rad = std::remainder(facing_b_[static_cast<std::size_t>(j)] +
+                                             pair.match.a_from_b.turn_rad -
+                                             facing_a_[static_cast<std::size_t>(i)],
+                                         kWholeTurn_rad);
+        pair.cost_m = pair.match.distance_m + options_.unlike_m_per_s * pair.unlike_s +
+                      options_.facing_m * (1.0 - std::cos(pair.facing_rad));
         out.push_back(pair);
       }
     }
@@ -133,6 +157,8 @@ class SpliceSearch {
   MatchPoints b_;
   StanceMarks stands_a_;
   StanceMarks stands_b_;
+  std::vector<double> facing_a_;
+  std::vector<double> facing_b_;
   double hz_;
   const FindSpliceOptions& options_;
 };

@@ -35,7 +35,10 @@ struct SpliceCandidate {
   /// Time in which a foot bears in one motion and swings in the other, of both feet,
   /// within FindSpliceOptions::around_s of the pair. [s]
   double unlike_s = 0.0;
-  double cost_m = 0.0;  ///< match.distance_m + unlike_m_per_s * unlike_s.
+  /// Angle between the directions of both pelvises after the move. [rad]
+  double facing_rad = 0.0;
+  /// match.distance_m + unlike_m_per_s * unlike_s + facing_m * (1 - cos facing_rad).
+  double cost_m = 0.0;
 };
 
 struct FindSpliceOptions {
@@ -44,6 +47,10 @@ struct FindSpliceOptions {
   /// Cost of unlike contacts: the weights of distances are masses, in which a foot that
   /// stands and one that swings hardly differ. [m/s]
   double unlike_m_per_s = 0.3;
+  /// Cost of pelvises that face different directions, at a right angle. The best move of
+  /// two windows that travel in opposite directions relative to the body may turn one of
+  /// them round. [m]
+  double facing_m = 0.4;
   bool align = true;  ///< False: the second motion is not moved, its place counts.
   /// Pairs that stand on opposite feet are accepted.
   bool allow_opposed = false;
@@ -55,9 +62,9 @@ struct FindSpliceOptions {
 /// Returns the best pairs of frames for a transition, by cost: the weighted difference of
 /// joints and of their velocities over five frames round each, after the best planar move
 /// (Kovar, Gleicher and Pighin, "Motion graphs", 2002; match_windows()), plus a cost of
-/// unlike contacts of the feet round them. With equal costs
-/// the later `leave` comes first. Pairs that stand on opposite feet are left out; the
-/// result is empty if there are no others. Windows with more than 40 000 pairs are
+/// unlike contacts of the feet round them, and of different facing directions. With equal
+/// costs the later `leave` comes first. Pairs that stand on opposite feet are left out;
+/// the result is empty if there are no others. Windows with more than 40 000 pairs are
 /// searched on a grid, whose best places are then searched frame by frame. Cost: some
 /// microseconds per pair.
 /// Precondition: both states have the same skeleton and rate; the windows are within the

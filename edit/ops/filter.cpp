@@ -168,7 +168,7 @@ void hold_filtered_feet(const EditState& before,
   // by the noise.
   retarget::GroundOptions ground;
   ground.straight = 1.0;
-  const PlantReport planted = set_feet(state, feet, ground);
+  const PlantReport planted = set_feet(state, feet, {ground});
   report.figures.emplace_back("unreachable_frames", planted.unreachable_frames);
 }
 

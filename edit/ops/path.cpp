@@ -147,7 +147,7 @@ PlantReport move_body(const PathChange& change,
   for (auto& foot : state.contacts.feet) {
     foot.stance = with_swings(foot.stance, state.motion.rate.hz, count);
   }
-  const PlantReport planted = set_feet(state, feet, ground);
+  const PlantReport planted = set_feet(state, feet, {ground});
   state.contacts = contacts;
   return planted;
 }

@@ -6,52 +6,44 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "edit/find/find_splice.h"
-#include "edit/splice/bridge_stances.h"
+#include "edit/splice/choose_join.h"
 #include "edit/splice/choose_splice.h"
-#include "edit/splice/splice_carry.h"
-#include "edit/splice/splice_overlap.h"
-#include "edit/splice/splice_poses.h"
+#include "edit/splice/join_motions.h"
+#include "edit/splice/join_peak.h"
 #include "edit/splice/splice_source.h"
 #include "edit/state/check_op_keys.h"
-#include "edit/state/move_state.h"
-#include "edit/state/plant_near.h"
-#include "edit/state/resample_state.h"
-#include <glm/geometric.hpp>
 
-#include "core/base/degrees.h"
 #include "core/base/format_text.h"
-#include "retarget/feet/adapt_to_ground.h"
 
 namespace marey::edit {
 namespace {
 
-// Fade of the displacements of a join without an overlap, if no other is given. [s]
-constexpr double kSpliceBlend_s = 0.3;
-// Time around the planted feet in which the root may sink. [s]
-constexpr double kSpliceSink_s = 0.2;
+// Overlaps of root and legs that are tried if none is given, and decays of displacements
+// without an overlap. [s]
+constexpr double kMinOverlap_s = 0.3;
+constexpr std::array<double, 4> kOverlaps_s{kMinOverlap_s, 0.45, 0.6, 0.9};
+// Longer ones of trunk, head and arms. A hand crosses 0.8 m within 0.9 s with 6 m/s^2.
+// [s]
+constexpr std::array<double, 4> kUpperOverlaps_s{0.45, 0.6, 0.9, 1.2};
 // A larger difference of postures is reported. [leg lengths]
 constexpr double kFitGap_legs = 0.15;
-
-// The two motions of a splice, on their way to one.
-struct SpliceParts {
-  EditState first;   // Up to the end of the overlap.
-  EditState second;  // From its start.
-  SpliceOverlap overlap;
-  JoinFrames frames;
-  bool is_seamless = false;  // Both show identical frames: nothing is changed.
-};
+// A larger peak of a joint's acceleration against both motions' is avoided and reported.
+constexpr double kMaxAccelerationRatio = 1.1;
+constexpr std::size_t kNamedCandidates = 3;
 
 Status check_splice(const SpliceOp& op, const EditOp& common, const EditState& state) {
   if (state.motion.poses.empty()) {
     return bad_input("motion", "has no frames", "use another motion");
   }
-  if (!(op.overlap_s >= 0.0) || !std::isfinite(op.overlap_s)) {
+  if (op.overlap_s && (!(*op.overlap_s >= 0.0) || !std::isfinite(*op.overlap_s))) {
     return bad_input("overlap_s",
-                     format_text("is %g", op.overlap_s),
+                     format_text("is %g", *op.overlap_s),
                      "give 0 or a positive number of seconds");
   }
   if (!(common.blend_s >= 0.0) || !std::isfinite(common.blend_s)) {
@@ -59,7 +51,7 @@ Status check_splice(const SpliceOp& op, const EditOp& common, const EditState& s
                      format_text("is %g", common.blend_s),
                      "give 0 or a positive number of seconds");
   }
-  if (common.blend_s > 0.0 && op.overlap_s > 0.0) {
+  if (common.blend_s > 0.0 && op.overlap_s.value_or(kMinOverlap_s) > 0.0) {
     return bad_input("blend_s",
                      "has no meaning for splice with an overlap",
                      "remove it, or set overlap_s = 0");
@@ -67,159 +59,8 @@ Status check_splice(const SpliceOp& op, const EditOp& common, const EditState& s
   return check_op_keys(common, {.span = true, .blend = true});
 }
 
-bool is_same_pose(const Pose& a, const Pose& b) {
-  return a.root_in_world == b.root_in_world && a.parent_from_joint == b.parent_from_joint;
-}
-
-// Compares the frames and their neighbours to the bit, as far as both have them.
-bool has_identical_frames(const EditState& first,
-                          const EditState& second,
-                          const SpliceCandidate& pair,
-                          const SpliceOverlap& overlap) {
-  const int before =
-      std::max(1, pair.enter - static_cast<int>(overlap.second_at.front()));
-  const int after = std::max(1, static_cast<int>(overlap.second_at.back()) - pair.enter);
-  for (int k = -before; k <= after; ++k) {
-    const int i = pair.leave + k;
-    const int j = pair.enter + k;
-    if (i < 0 || j < 0 || i >= first.frame_count() || j >= second.frame_count()) continue;
-    if (!is_same_pose(first.motion.poses[static_cast<std::size_t>(i)],
-                      second.motion.poses[static_cast<std::size_t>(j)])) {
-      return false;
-    }
-  }
-  return true;
-}
-
-// Frames of a motion before the overlap (or after it), and in it.
-std::vector<double> frames_with(const std::vector<double>& overlap,
-                                int frame_count,
-                                bool is_first) {
-  std::vector<double> out;
-  const int start = static_cast<int>(std::lround(overlap.front()));
-  const int end = static_cast<int>(std::lround(overlap.back()));
-  for (int frame = 0; is_first && frame < start; ++frame) out.push_back(frame);
-  out.insert(out.end(), overlap.begin(), overlap.end());
-  for (int frame = end + 1; !is_first && frame < frame_count; ++frame) {
-    out.push_back(frame);
-  }
-  return out;
-}
-
-SpliceParts split_parts(const EditState& first,
-                        const EditState& second,
-                        const SpliceCandidate& pair,
-                        int overlap_frames) {
-  SpliceParts parts;
-  parts.overlap =
-      plan_splice_overlap(first, pair.leave, second, pair.enter, {overlap_frames, false});
-  parts.is_seamless = has_identical_frames(first, second, pair, parts.overlap);
-  if (!parts.is_seamless) {
-    parts.overlap = plan_splice_overlap(
-        first, pair.leave, second, pair.enter, {overlap_frames, true});
-  }
-  const double hz = first.motion.rate.hz;
-  parts.first = resample_state(
-      first, frames_with(parts.overlap.first_at, first.frame_count(), true), hz);
-  parts.first.motion.first_frame = first.motion.first_frame;
-  parts.second = resample_state(
-      second, frames_with(parts.overlap.second_at, second.frame_count(), false), hz);
-  const int start = static_cast<int>(std::lround(parts.overlap.first_at.front()));
-  parts.frames = {start, start + parts.overlap.join(), parts.overlap.weight};
-  return parts;
-}
-
 bool stands(const EditState& state) {
   return !state.contacts.feet[0].stance.empty() || !state.contacts.feet[1].stance.empty();
-}
-
-double floor_of(const EditState& state) {
-  return retarget::floor_height_m(state.map,
-                                  retarget::ankles_rest_m(state.map, state.contacts));
-}
-
-// Moves the second motion to the first one's place and floor.
-void align_second(const EditState& first,
-                  const EditState& second,
-                  const SpliceCandidate& pair,
-                  SpliceParts& parts,
-                  OpReport& report) {
-  RigidTransform move = pair.match.a_from_b.transform();
-  if (stands(first) && stands(second)) {
-    move.translation.y = floor_of(first) - floor_of(second);
-  }
-  move_state(move, parts.second);
-  const glm::dvec3 gap = footprint_gap(parts.first, parts.second, parts.frames);
-  move_state({glm::dquat(1.0, 0.0, 0.0, 0.0), gap}, parts.second);
-  move.translation += gap;
-  report.figures.emplace_back("turn_deg",
-                              pair.match.a_from_b.turn_rad * kDegreesPerRadian);
-  report.figures.emplace_back("shift_x_m", move.translation.x);
-  report.figures.emplace_back("shift_z_m", move.translation.z);
-  report.figures.emplace_back("raised_mm", 1e3 * move.translation.y);
-  report.figures.emplace_back("footprint_moved_mm", 1e3 * glm::length(gap));
-}
-
-FrameRange widened(const FrameRange& frames, int by, int count) {
-  return {std::max(0, frames.first - by), std::min(count - 1, frames.last + by)};
-}
-
-FrameRange united(const FrameRange& a, const FrameRange& b) {
-  if (a.last < a.first) return b;
-  if (b.last < b.first) return a;
-  return {std::min(a.first, b.first), std::max(a.last, b.last)};
-}
-
-void report_planted(const PlantNearReport& planted, OpReport& report) {
-  report.figures.emplace_back("slide_before_mm", planted.plant.slide_before_mm);
-  report.figures.emplace_back("slide_after_mm", planted.plant.slide_after_mm);
-  if (planted.plant.unreachable_frames == 0) return;
-  report.findings.push_back(
-      fair_finding("reach",
-                   "splice",
-                   std::to_string(planted.plant.unreachable_frames) +
-                       " frames have a leg that does not reach its footprint",
-                   "choose frames that fit better with at and enter_at"));
-}
-
-// Marks the invented frames at the join, and touches the frames after it.
-void mark_join(const FrameRange& changed,
-               const FrameRange& moved,
-               const Motion& plain,
-               int op,
-               OpReport& report,
-               EditState& out) {
-  const double before_m = mark_displaced(out, plain, {moved.first, changed.first}, op);
-  mark_invented(out, {changed.first + 1, changed.last - 1}, op);
-  const int rest = std::max(changed.last, changed.first + 1);
-  const double after_m = mark_displaced(out, plain, {rest, moved.last}, op);
-  touch(out.lineage, {std::max(moved.last + 1, rest), out.frame_count() - 1}, op);
-  report.figures.emplace_back("displaced_mm", 1e3 * std::max(before_m, after_m));
-}
-
-// Changes the poses of the joined motion round the join.
-void smooth_join(const SpliceParts& parts,
-                 int blend_frames,
-                 const OpContext& context,
-                 OpReport& report,
-                 EditState& out) {
-  const Motion plain = out.motion;
-  const FrameRange overlap{parts.frames.start, parts.frames.start + parts.overlap.last()};
-  FrameRange changed = overlap;
-  if (parts.overlap.last() > 0) {
-    mix_overlap(parts.first, parts.second, parts.frames, out);
-  } else {
-    changed =
-        united(changed,
-               displace_join(parts.first, parts.second, parts.frames, blend_frames, out));
-  }
-  const FootWays feet = bridge_stances(parts.first, parts.second, parts.frames, out);
-  const PlantNearReport planted = plant_feet_near(out, changed, feet);
-  report_planted(planted, report);
-  const int sink = static_cast<int>(std::ceil(kSpliceSink_s * out.motion.rate.hz));
-  const FrameRange moved =
-      widened(united(changed, planted.changed), sink, out.frame_count());
-  mark_join(overlap, moved, plain, context.index, report, out);
 }
 
 void report_gap(const SpliceOp& op,
@@ -265,23 +106,105 @@ void report_supports(const EditState& first,
   }
 }
 
-void report_overlap(const SpliceOp& op,
-                    const SpliceOverlap& overlap,
+void report_overlap(const SpliceOverlap& overlap,
+                    const JoinPlan& plan,
                     double hz,
                     OpReport& report) {
-  report.figures.emplace_back("overlap_s", overlap.last() / hz);
+  report.figures.emplace_back("overlap_s", overlap.body_frames() / hz);
+  report.figures.emplace_back("upper_overlap_s", overlap.last() / hz);
   report.figures.emplace_back("aligned_edges", overlap.matched_edges);
   report.figures.emplace_back("warp_ms", 1e3 * overlap.max_warp_s);
   report.figures.emplace_back("opposed_s", overlap.opposed_s);
-  if (overlap.last() >= static_cast<int>(std::lround(op.overlap_s * hz))) return;
+  if (overlap.body_frames() >= plan.overlap_frames) return;
   report.findings.push_back(
       {Severity::kNote,
        "overlap",
        "splice",
        format_text("the motions have frames for an overlap of %.3f s, not %.3f s",
-                   overlap.last() / hz,
-                   op.overlap_s),
+                   overlap.body_frames() / hz,
+                   plan.overlap_frames / hz),
        "choose frames further from the end of the motion and the start of the source"});
+}
+
+void name_candidates(const std::vector<SpliceCandidate>& candidates,
+                     const SpliceCandidate& chosen,
+                     OpReport& report) {
+  std::string text;
+  std::size_t count = 0;
+  for (const SpliceCandidate& pair : candidates) {
+    if (pair.leave == chosen.leave && pair.enter == chosen.enter) continue;
+    if (count++ == kNamedCandidates) break;
+    text += format_text("%s %d, %d, %.0f mm",
+                        text.empty() ? "" : ";",
+                        pair.leave,
+                        pair.enter,
+                        1e3 * pair.match.distance_m);
+  }
+  if (text.empty()) return;
+  report.findings.push_back({Severity::kNote,
+                             "candidates",
+                             "splice",
+                             "other pairs that fit (leave, enter, difference):" + text,
+                             ""});
+}
+
+// Compares the accelerations round the join with those of both motions.
+void report_acceleration(const SpliceOp& op,
+                         const JoinedMotion& joined,
+                         double clips_m_per_s2,
+                         OpReport& report) {
+  if (!(clips_m_per_s2 > 0.0)) return;
+  const auto peak = peak_acceleration(
+      joined.state.motion, {joined.changed.first - 1, joined.changed.last + 1});
+  const double ratio = peak.m_per_s2 / clips_m_per_s2;
+  report.figures.emplace_back("acceleration_ratio", ratio);
+  if (ratio <= kMaxAccelerationRatio) return;
+  const bool is_free = !op.at && !op.enter_at;
+  const char* next = "use a motion that begins as this one ends";
+  if (op.overlap_s == 0.0) {
+    next = "leave out overlap_s, or give a longer blend_s";
+  } else if (op.overlap_s) {
+    next = "leave out overlap_s, or give a longer one";
+  } else if (!is_free) {
+    next = "leave out at and enter_at for the best frames";
+  }
+  report.findings.push_back(
+      fair_finding(
+          "acceleration",
+          "splice",
+          format_text("the %s accelerates %.2f times as much as any joint of both "
+                      "motions, in frame %d of the result",
+                      std::string(name(peak.bone)).c_str(),
+                      ratio,
+                      peak.frame),
+          next)
+          .measured(ratio, kMaxAccelerationRatio, "times"));
+}
+
+// Overlaps that may be tried, in seconds; the given one alone.
+JoinChoices join_choices(const SpliceOp& op,
+                         const EditOp& common,
+                         double hz,
+                         std::vector<SpliceCandidate> pairs) {
+  const auto frames = [&](double time_s) {
+    return static_cast<int>(std::lround(time_s * hz));
+  };
+  JoinChoices out;
+  out.pairs = std::move(pairs);
+  out.align = op.align;
+  if (common.blend_s > 0.0) {
+    out.blends = {frames(common.blend_s)};
+  } else {
+    for (const double time_s : kOverlaps_s) out.blends.push_back(frames(time_s));
+  }
+  if (op.overlap_s) {
+    out.overlaps = {frames(*op.overlap_s)};
+    return out;
+  }
+  for (const double time_s : kOverlaps_s) out.overlaps.push_back(frames(time_s));
+  for (const double time_s : kUpperOverlaps_s)
+    out.upper_overlaps.push_back(frames(time_s));
+  return out;
 }
 
 }  // namespace
@@ -294,31 +217,36 @@ Result<EditState> apply_splice(const SpliceOp& op,
   auto second = fit_splice_source(state, op.source, context.inputs, report);
   if (!second) return second.error();
   const EditState& original = context.inputs.sources.at(op.source);
-  const auto pair = choose_splice(op, context.op, state, original, *second, report);
-  if (!pair) return pair.error();
+  auto pairs = choose_splice(
+      op, context.op, state, original, *second, op.overlap_s.value_or(kMinOverlap_s));
+  if (!pairs) return pairs.error();
   const double hz = state.motion.rate.hz;
-  report.figures.emplace_back("leave_frame", pair->leave);
-  report.figures.emplace_back("enter_frame", pair->enter);
-  report.figures.emplace_back("gap_mm", 1e3 * pair->match.rms_m);
-  report.figures.emplace_back("velocity_gap_m_per_s", pair->match.rms_velocity_m_per_s);
-  SpliceParts parts = split_parts(
-      state, *second, *pair, static_cast<int>(std::lround(op.overlap_s * hz)));
-  report.figures.emplace_back("unchanged", parts.is_seamless ? 1.0 : 0.0);
-  if (!parts.is_seamless) {
-    report_gap(op, *pair, state, report);
-    report_supports(state, *second, *pair, report);
-    report_overlap(op, parts.overlap, hz, report);
-    if (op.align) align_second(state, *second, *pair, parts, report);
+  const double clips_m_per_s2 = std::max(peak_acceleration(state.motion).m_per_s2,
+                                         peak_acceleration(second->motion).m_per_s2);
+  JoinChoices choices = join_choices(op, context.op, hz, *std::move(pairs));
+  choices.max_m_per_s2 = kMaxAccelerationRatio * clips_m_per_s2;
+  const JoinPlan plan = choose_join(state, *second, choices);
+  name_candidates(choices.pairs, plan.pair, report);
+  report.figures.emplace_back("leave_frame", plan.pair.leave);
+  report.figures.emplace_back("enter_frame", plan.pair.enter);
+  report.figures.emplace_back("gap_mm", 1e3 * plan.pair.match.rms_m);
+  report.figures.emplace_back("velocity_gap_m_per_s",
+                              plan.pair.match.rms_velocity_m_per_s);
+  JoinedMotion joined = join_motions(state, *second, plan, context.index);
+  report.figures.emplace_back("unchanged", joined.is_seamless ? 1.0 : 0.0);
+  if (!joined.is_seamless) {
+    report_gap(op, plan.pair, state, report);
+    report_supports(state, *second, plan.pair, report);
+    report_overlap(joined.overlap, plan, hz, report);
+    report_acceleration(op, joined, clips_m_per_s2, report);
   }
-  parts.frames.weight = parts.overlap.weight;
-  EditState out = join_states(parts.first, parts.second, parts.frames, report);
-  if (parts.is_seamless) {
-    touch(out.lineage, {parts.frames.join + 1, out.frame_count() - 1}, context.index);
-    return out;
-  }
-  const double blend_s = context.op.blend_s > 0.0 ? context.op.blend_s : kSpliceBlend_s;
-  smooth_join(parts, static_cast<int>(std::lround(blend_s * hz)), context, report, out);
-  return out;
+  std::move(joined.report.figures.begin(),
+            joined.report.figures.end(),
+            std::back_inserter(report.figures));
+  std::move(joined.report.findings.begin(),
+            joined.report.findings.end(),
+            std::back_inserter(report.findings));
+  return std::move(joined.state);
 }
 
 }  // namespace marey::edit

@@ -101,10 +101,9 @@ std::vector<std::size_t> common_entries(const retarget::FootContacts& first,
                                         const retarget::FootContacts& second,
                                         const JoinFrames& frames) {
   std::vector<std::size_t> out;
-  for (std::size_t k = 0; k < frames.weight.size(); ++k) {
-    const int frame = static_cast<int>(k);
-    if (stands_at(first, frames.start + frame) && stands_at(second, frame)) {
-      out.push_back(k);
+  for (int k = frames.body.first; k <= frames.body.last; ++k) {
+    if (stands_at(first, frames.start + k) && stands_at(second, k)) {
+      out.push_back(static_cast<std::size_t>(k));
     }
   }
   if (out.empty()) out.push_back(static_cast<std::size_t>(frames.join - frames.start));
@@ -123,10 +122,11 @@ void bridge_overlap(const OverlapFeet& feet,
                     const FrameRange& stance,
                     const JoinFrames& frames,
                     std::vector<FootPlace>& way) {
-  const int end = frames.start + static_cast<int>(frames.weight.size()) - 1;
+  const int start = frames.start + frames.body.first;
+  const int end = frames.start + frames.body.last;
   for (int t = stance.first; t <= stance.last; ++t) {
     FootPlace& place = way[static_cast<std::size_t>(t)];
-    if (t < frames.start) {
+    if (t < start) {
       place = moves.first.moved(feet.first[static_cast<std::size_t>(t)]);
       continue;
     }

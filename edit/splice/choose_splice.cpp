@@ -18,28 +18,28 @@ namespace {
 
 // Longest part of a motion that is searched. [s]
 constexpr double kMaxWindow_s = 4.0;
-constexpr std::size_t kNamedCandidates = 3;
+constexpr int kMaxCandidates = 6;
 
 int nearest_frame(double frame, const EditState& state) {
   return std::clamp(static_cast<int>(std::lround(frame)), 0, state.frame_count() - 1);
 }
 
 // Frames of half an overlap, if both sides of the frame have room for it.
-int splice_margin(const SpliceOp& op, const EditState& state) {
-  const int half = static_cast<int>(std::ceil(0.5 * op.overlap_s * state.motion.rate.hz));
+int splice_margin(double overlap_s, const EditState& state) {
+  const int half = static_cast<int>(std::ceil(0.5 * overlap_s * state.motion.rate.hz));
   return state.frame_count() - 1 >= 2 * half ? half : 0;
 }
 
-FrameRange default_leave(const SpliceOp& op, const EditState& state) {
-  const int margin = splice_margin(op, state);
+FrameRange default_leave(double overlap_s, const EditState& state) {
+  const int margin = splice_margin(overlap_s, state);
   const int last = state.frame_count() - 1 - margin;
   const int longest = static_cast<int>(kMaxWindow_s * state.motion.rate.hz);
   const int middle = std::max((state.frame_count() - 1) / 2, margin);
   return {std::clamp(last - longest, std::min(middle, last), last), last};
 }
 
-FrameRange default_enter(const SpliceOp& op, const EditState& state) {
-  const int first = splice_margin(op, state);
+FrameRange default_enter(double overlap_s, const EditState& state) {
+  const int first = splice_margin(overlap_s, state);
   const int last = state.frame_count() - 1 - first;
   const int longest = static_cast<int>(kMaxWindow_s * state.motion.rate.hz);
   const int middle = std::clamp((state.frame_count() - 1) / 2, first, last);
@@ -48,7 +48,8 @@ FrameRange default_enter(const SpliceOp& op, const EditState& state) {
 
 Result<FrameRange> leave_window(const SpliceOp& op,
                                 const EditOp& common,
-                                const EditState& first) {
+                                const EditState& first,
+                                double overlap_s) {
   if (op.at) {
     if (!common.span.is_whole()) {
       return bad_input(
@@ -59,7 +60,7 @@ Result<FrameRange> leave_window(const SpliceOp& op,
     const int at = nearest_frame(*frame, first);
     return FrameRange{at, at};
   }
-  if (common.span.is_whole()) return default_leave(op, first);
+  if (common.span.is_whole()) return default_leave(overlap_s, first);
   const auto span = resolve_span(first, common.span);
   if (!span) return span.error();
   constexpr double kRounding = 1e-9;
@@ -77,8 +78,9 @@ Result<FrameRange> leave_window(const SpliceOp& op,
 
 Result<FrameRange> enter_window(const SpliceOp& op,
                                 const EditState& original,
-                                const EditState& second) {
-  if (!op.enter_at) return default_enter(op, second);
+                                const EditState& second,
+                                double overlap_s) {
+  if (!op.enter_at) return default_enter(overlap_s, second);
   const auto frame = resolve_moment(original, *op.enter_at);
   if (!frame) {
     Error error = frame.error();
@@ -90,36 +92,23 @@ Result<FrameRange> enter_window(const SpliceOp& op,
   return FrameRange{at, at};
 }
 
-void name_candidates(const std::vector<SpliceCandidate>& candidates, OpReport& report) {
-  if (candidates.size() < 2) return;
-  std::string text = "other pairs that fit (leave, enter, difference):";
-  const std::size_t count = std::min(candidates.size(), kNamedCandidates + 1);
-  for (std::size_t k = 1; k < count; ++k) {
-    text += format_text("%s %d, %d, %.0f mm",
-                        k == 1 ? "" : ";",
-                        candidates[k].leave,
-                        candidates[k].enter,
-                        1e3 * candidates[k].match.distance_m);
-  }
-  report.findings.push_back({Severity::kNote, "candidates", "splice", text, ""});
-}
-
 }  // namespace
 
-Result<SpliceCandidate> choose_splice(const SpliceOp& op,
-                                      const EditOp& common,
-                                      const EditState& first,
-                                      const EditState& original,
-                                      const EditState& second,
-                                      OpReport& report) {
-  const auto leave = leave_window(op, common, first);
+Result<std::vector<SpliceCandidate>> choose_splice(const SpliceOp& op,
+                                                   const EditOp& common,
+                                                   const EditState& first,
+                                                   const EditState& original,
+                                                   const EditState& second,
+                                                   double overlap_s) {
+  const auto leave = leave_window(op, common, first, overlap_s);
   if (!leave) return leave.error();
-  const auto enter = enter_window(op, original, second);
+  const auto enter = enter_window(op, original, second, overlap_s);
   if (!enter) return enter.error();
   FindSpliceOptions options;
   options.align = op.align;
   options.allow_opposed = op.at.has_value() && op.enter_at.has_value();
-  const auto candidates = find_splices(first, second, {*leave, *enter}, options);
+  options.max_candidates = kMaxCandidates;
+  auto candidates = find_splices(first, second, {*leave, *enter}, options);
   if (candidates.empty()) {
     return bad_input(
         "splice",
@@ -131,8 +120,7 @@ Result<SpliceCandidate> choose_splice(const SpliceOp& op,
                     enter->last),
         "widen the span, or give both at and enter_at");
   }
-  name_candidates(candidates, report);
-  return candidates.front();
+  return candidates;
 }
 
 }  // namespace marey::edit

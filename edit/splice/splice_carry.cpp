@@ -214,7 +214,7 @@ EditState join_states(const EditState& first,
   const EditState tail = slice_state(second, {skipped, second.frame_count() - 1});
   const double hz = first.motion.rate.hz;
   const JoinTime time{frames.join / hz,
-                      static_cast<double>(frames.weight.size() - 1) / hz};
+                      static_cast<double>(frames.body.last - frames.body.first) / hz};
   out.motion.first_frame = first.motion.first_frame;
   out.motion.poses.insert(
       out.motion.poses.end(), tail.motion.poses.begin() + 1, tail.motion.poses.end());
@@ -230,10 +230,13 @@ EditState join_states(const EditState& first,
     edit.to_s += time.at_s;
     out.contact_edits.push_back(edit);
   }
-  out.contacts = join_contacts(
-      first.contacts,
-      second.contacts,
-      {frames.start, frames.join, static_cast<int>(frames.weight.size()) - 1, hz});
+  out.contacts = join_contacts(first.contacts,
+                               second.contacts,
+                               {frames.start,
+                                frames.join,
+                                frames.body.last - frames.body.first,
+                                hz,
+                                frames.body.first});
   return out;
 }
 

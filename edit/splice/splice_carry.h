@@ -7,13 +7,18 @@
 #include "edit/state/edit_state.h"
 #include "edit/state/op_report.h"
 
+#include "core/base/frame_range.h"
+
 namespace marey::edit {
 
 /// Frames of a joined motion in which both motions are shown.
 struct JoinFrames {
   int start = 0;  ///< Frame of the result that shows the second motion's first one.
   int join = 0;   ///< Last frame that is the first motion's.
-  std::span<const double> weight;  ///< Annotations of the second motion, from `start` on.
+  /// Weights of the second motion from `start` on: root, legs and annotations.
+  std::span<const double> weight;
+  std::span<const double> upper_weight;  ///< Trunk, head and arms.
+  FrameRange body;  ///< Entries of `weight` between which root and legs are mixed.
 };
 
 /// Joins two motions on one time grid: frames up to `join` are the first one's, later

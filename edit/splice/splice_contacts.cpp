@@ -69,7 +69,7 @@ void close_gap(const JoinedFrames& frames, FrameMarks& marks) {
   for (const FrameRange& run : runs_with(marks, 0)) {
     const bool touches_join = run.first <= frames.join + 1 && run.last >= frames.join;
     const bool is_within =
-        run.first > frames.start && run.last < frames.start + frames.length;
+        run.first > frames.overlap_first() && run.last < frames.overlap_last();
     if (!touches_join || !is_within) continue;
     if ((run.last - run.first + 1) / frames.hz >= kMaxGap_s) continue;
     std::fill(marks.begin() + run.first, marks.begin() + run.last + 1, char{1});
@@ -80,17 +80,18 @@ void close_gap(const JoinedFrames& frames, FrameMarks& marks) {
 // has it; drops it otherwise.
 void mend_short(const BothMarks& both, const JoinedFrames& frames, FrameMarks& marks) {
   const int least = static_cast<int>(std::ceil(kMinContact_s * frames.hz));
-  const int end = frames.start + frames.length;
+  const int start = frames.overlap_first();
+  const int end = frames.overlap_last();
   for (const FrameRange& run : runs_with(marks, 1)) {
     const bool is_first = run.last == frames.join;
     const bool is_second = run.first == frames.join + 1;
     if ((!is_first && !is_second) || run.last - run.first + 1 >= least) continue;
-    if (run.first <= frames.start || run.last >= end) continue;
+    if (run.first <= start || run.last >= end) continue;
     const FrameMarks& own = is_first ? both.first : both.second;
     const int step = is_first ? 1 : -1;
     int edge = is_first ? run.last : run.first;
     int count = run.last - run.first + 1;
-    while (count < least && edge + step > frames.start && edge + step < end &&
+    while (count < least && edge + step > start && edge + step < end &&
            own[static_cast<std::size_t>(edge + step)] != 0) {
       edge += step;
       ++count;
@@ -108,9 +109,8 @@ FrameMarks joined_heels_up(const BothMarks& both, const JoinedFrames& frames) {
   FrameMarks out = joined_marks(both, frames);
   const int roll = static_cast<int>(std::lround(kRoll_s * frames.hz));
   const int last = static_cast<int>(out.size()) - 1;
-  const int from = std::max(0, std::min(frames.start, frames.join - roll));
-  const int to =
-      std::min(last, std::max(frames.start + frames.length, frames.join + roll));
+  const int from = std::max(0, std::min(frames.overlap_first(), frames.join - roll));
+  const int to = std::min(last, std::max(frames.overlap_last(), frames.join + roll));
   const auto is_up = [&](const FrameMarks& marks, int frame) {
     return marks[static_cast<std::size_t>(std::clamp(frame, 0, last))] != 0;
   };

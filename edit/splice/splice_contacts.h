@@ -10,8 +10,12 @@ namespace marey::edit {
 struct JoinedFrames {
   int start = 0;   ///< Frame of the result that shows the second motion's first one.
   int join = 0;    ///< Last frame with the first motion's contacts.
-  int length = 0;  ///< Frames of the overlap after `start`.
+  int length = 0;  ///< Frames of the overlap after its first one.
   double hz = 0.0;
+  int lead = 0;  ///< Frames from `start` to the overlap's first one.
+
+  [[nodiscard]] int overlap_first() const { return start + lead; }
+  [[nodiscard]] int overlap_last() const { return start + lead + length; }
 };
 
 /// Returns the contacts of a joined motion: the first one's up to the join, then the

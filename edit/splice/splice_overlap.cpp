@@ -136,12 +136,13 @@ std::vector<double> warp_frames(const std::vector<SpliceKnot>& knots,
   return out;
 }
 
+// Warps the frames in which root and legs are mixed. The starts are those of the body.
 void warp_to_supports(const EditState& first,
                       int first_start,
                       const EditState& second,
                       int second_start,
                       SpliceOverlap& overlap) {
-  const int length = overlap.last();
+  const int length = overlap.body_frames();
   std::vector<SpliceKnot> knots{{}, {1.0 * length, 1.0 * length, 1.0 * length}};
   bool is_plain = true;
   for (const auto& [x, y] :
@@ -156,8 +157,9 @@ void warp_to_supports(const EditState& first,
   const auto second_at = warp_frames(knots, &SpliceKnot::second, length);
   for (std::size_t k = 0; k < first_at.size(); ++k) {
     const double frame = static_cast<double>(k);
-    overlap.first_at[k] = first_start + first_at[k];
-    overlap.second_at[k] = second_start + second_at[k];
+    const std::size_t entry = static_cast<std::size_t>(overlap.body.first) + k;
+    overlap.first_at[entry] = first_start + first_at[k];
+    overlap.second_at[entry] = second_start + second_at[k];
     const double warp =
         std::max(std::abs(first_at[k] - frame), std::abs(second_at[k] - frame));
     overlap.max_warp_s = std::max(overlap.max_warp_s, warp / first.motion.rate.hz);
@@ -167,13 +169,28 @@ void warp_to_supports(const EditState& first,
 void measure_opposed(const EditState& first,
                      const EditState& second,
                      SpliceOverlap& overlap) {
-  for (std::size_t k = 0; k < overlap.weight.size(); ++k) {
+  const auto end = static_cast<std::size_t>(overlap.body.last);
+  for (auto k = static_cast<std::size_t>(overlap.body.first); k <= end; ++k) {
     const auto frame_of = [&](double at) { return static_cast<int>(std::lround(at)); };
     if (supports_oppose(support_class(first.contacts, frame_of(overlap.first_at[k])),
                         support_class(second.contacts, frame_of(overlap.second_at[k])))) {
       overlap.opposed_s += 1.0 / first.motion.rate.hz;
     }
   }
+}
+
+// Frames before and after the pair that an overlap of this length has.
+struct OverlapSides {
+  int before = 0;
+  int after = 0;
+};
+
+OverlapSides sides_of(int frames, const OverlapSides& room) {
+  OverlapSides out;
+  out.before = std::min(frames / 2, room.before);
+  out.after = std::min(frames - out.before, room.after);
+  out.before = std::min(frames - out.after, room.before);
+  return out;
 }
 
 }  // namespace
@@ -185,21 +202,27 @@ SpliceOverlap plan_splice_overlap(const EditState& first,
                                   const SpliceOverlapOptions& options) {
   MAREY_ASSERT(leave >= 0 && leave < first.frame_count());
   MAREY_ASSERT(enter >= 0 && enter < second.frame_count() && options.frames >= 0);
-  const int room_before = std::min(leave, enter);
-  const int room_after =
-      std::min(first.frame_count() - 1 - leave, second.frame_count() - 1 - enter);
-  int before = std::min(options.frames / 2, room_before);
-  const int after = std::min(options.frames - before, room_after);
-  before = std::min(options.frames - after, room_before);
+  const OverlapSides room{
+      std::min(leave, enter),
+      std::min(first.frame_count() - 1 - leave, second.frame_count() - 1 - enter)};
+  const OverlapSides body = sides_of(options.frames, room);
+  OverlapSides upper = sides_of(std::max(options.frames, options.upper_frames), room);
+  upper = {std::max(upper.before, body.before), std::max(upper.after, body.after)};
+  const int length = body.before + body.after;
+  const int upper_length = upper.before + upper.after;
   SpliceOverlap overlap;
-  const int length = before + after;
-  for (int k = 0; k <= length; ++k) {
-    overlap.first_at.push_back(leave - before + k);
-    overlap.second_at.push_back(enter - before + k);
-    overlap.weight.push_back(length == 0 ? 0.0 : splice_weight(k, length));
+  overlap.body.first = upper.before - body.before;
+  overlap.body.last = overlap.body.first + length;
+  for (int k = 0; k <= upper_length; ++k) {
+    overlap.first_at.push_back(leave - upper.before + k);
+    overlap.second_at.push_back(enter - upper.before + k);
+    overlap.weight.push_back(length == 0 ? 0.0
+                                         : splice_weight(k - overlap.body.first, length));
+    overlap.upper_weight.push_back(upper_length == 0 ? 0.0
+                                                     : splice_weight(k, upper_length));
   }
   if (options.align_supports && length > 0) {
-    warp_to_supports(first, leave - before, second, enter - before, overlap);
+    warp_to_supports(first, leave - body.before, second, enter - body.before, overlap);
   }
   measure_opposed(first, second, overlap);
   return overlap;

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "edit/state/op_weights.h"
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -115,7 +116,8 @@ struct JoinPoses {
 SideDecay decay_of(const JoinPoses& join, bool is_first, int length) {
   SideDecay out;
   out.length = length;
-  out.rate_length = std::min(1.0 * length, std::max(1.0, kVelocityFade_s * join.hz));
+  out.rate_length =
+      std::min(1.0 * length, std::max({1.0, kVelocityFade_s * join.hz, 0.5 * length}));
   const double share = is_first ? join.share_a : join.share_a - 1.0;
   // Time runs away from the join: backwards on the first side.
   const double sense = is_first ? -1.0 : 1.0;
@@ -200,18 +202,41 @@ glm::dquat part_of_turn(const glm::dquat& turn, double share) {
   return {std::cos(half), part.x, part.y, part.z};
 }
 
+// Weights of the second motion in one frame.
+struct PoseShares {
+  double body = 0.0;   // Root and legs.
+  double upper = 0.0;  // Trunk, head and arms.
+};
+
+// Marks the joints of trunk, head and arms.
+std::vector<char> upper_joints(const Skeleton& skeleton) {
+  std::vector<char> out;
+  for (const EditGroup group : groups_of_joints(skeleton)) {
+    const bool is_body = group == EditGroup::kRoot || group == EditGroup::kLeftLeg ||
+                         group == EditGroup::kRightLeg;
+    out.push_back(is_body ? 0 : 1);
+  }
+  return out;
+}
+
 Pose mixed_pose(const Pose& a,
                 const Pose& b,
                 const std::vector<glm::dquat>& turns,
-                double share) {
-  if (share <= 0.0) return a;
-  if (share >= 1.0) return b;
+                const std::vector<char>& is_upper,
+                const PoseShares& shares) {
   Pose out = a;
-  out.root_in_world = glm::mix(a.root_in_world, b.root_in_world, share);
+  if (shares.body >= 1.0) {
+    out.root_in_world = b.root_in_world;
+  } else if (shares.body > 0.0) {
+    out.root_in_world = glm::mix(a.root_in_world, b.root_in_world, shares.body);
+  }
   for (std::size_t j = 0; j < out.parent_from_joint.size(); ++j) {
-    if (a.parent_from_joint[j] == b.parent_from_joint[j]) continue;
+    const double share = is_upper[j] != 0 ? shares.upper : shares.body;
+    if (share <= 0.0 || a.parent_from_joint[j] == b.parent_from_joint[j]) continue;
     out.parent_from_joint[j] =
-        glm::normalize(a.parent_from_joint[j] * part_of_turn(turns[j], share));
+        share >= 1.0
+            ? b.parent_from_joint[j]
+            : glm::normalize(a.parent_from_joint[j] * part_of_turn(turns[j], share));
   }
   return out;
 }
@@ -226,7 +251,8 @@ glm::dvec3 footprint_gap(const EditState& first,
   for (std::size_t side = 0; side < 2; ++side) {
     const auto a = stance_marks(first, side);
     const auto b = stance_marks(second, side);
-    for (std::size_t k = 0; k < frames.weight.size(); ++k) {
+    const auto last = static_cast<std::size_t>(frames.body.last);
+    for (auto k = static_cast<std::size_t>(frames.body.first); k <= last; ++k) {
       const std::size_t t = static_cast<std::size_t>(frames.start) + k;
       if (a[t] == 0 || b[k] == 0) continue;
       sum += soles_of(first, first.motion.poses[t])[side] -
@@ -245,12 +271,13 @@ void mix_overlap(const EditState& first,
   const auto shares =
       retarget::support_shares(out.contacts, out.motion.rate, kAnchorRamp_s);
   const auto turns = overlap_turns(first, second, frames);
+  const auto is_upper = upper_joints(out.motion.skeleton);
   for (std::size_t k = 0; k < frames.weight.size(); ++k) {
     const double weight = frames.weight[k];
     const std::size_t t = static_cast<std::size_t>(frames.start) + k;
     const Pose& a = first.motion.poses[t];
     const Pose& b = second.motion.poses[k];
-    Pose mixed = mixed_pose(a, b, turns[k], weight);
+    Pose mixed = mixed_pose(a, b, turns[k], is_upper, {weight, frames.upper_weight[k]});
     if (weight > 0.0 && weight < 1.0) {
       const auto feet_a = ankles_of(first, a);
       const auto feet_b = ankles_of(second, b);

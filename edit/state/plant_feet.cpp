@@ -3,6 +3,7 @@
 #include "edit/state/plant_feet.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -14,6 +15,7 @@
 
 #include "core/base/assert.h"
 #include "core/pose.h"
+#include "retarget/base/smooth_step.h"
 #include "retarget/body/normalized_skeleton.h"
 #include "retarget/contacts/frame_marks.h"
 #include "retarget/feet/adapt_to_ground.h"
@@ -123,6 +125,63 @@ int take_legs(const std::vector<NormalizedPose>& settled,
   return missed;
 }
 
+// Extension of a swinging leg up to which it is free, the one that it approaches beyond,
+// and the time after a stance in which this sets in. [share of the leg's length, s]
+constexpr double kFreeExtension = 0.97;
+constexpr double kMaxExtension = 0.998;
+constexpr double kSoftRamp_s = 0.1;
+
+// Returns the extension for a planned one; `own` is that of the leg before.
+double soft_extension(double planned, double own) {
+  const double from = std::max(own, kFreeExtension);
+  if (planned <= from) return planned;
+  const double room = std::max(0.0, kMaxExtension - from);
+  if (room == 0.0) return from;
+  return from + room * (1.0 - std::exp((from - planned) / room));
+}
+
+// Frames to the nearest stance; large values without one.
+std::vector<double> frames_from_stance(const std::vector<char>& stands) {
+  std::vector<double> out(stands.size(), static_cast<double>(stands.size()));
+  for (std::size_t t = 0; t < stands.size(); ++t) {
+    if (stands[t] != 0) out[t] = 0.0;
+    if (t > 0) out[t] = std::min(out[t], out[t - 1] + 1.0);
+  }
+  for (std::size_t t = stands.size(); t-- > 1;) {
+    out[t - 1] = std::min(out[t - 1], out[t] + 1.0);
+  }
+  return out;
+}
+
+// Draws moved swinging feet nearer to the hips of the settled postures.
+void soften_swings(const std::vector<NormalizedPose>& settled,
+                   const PlantFrames& before,
+                   const EditState& state,
+                   std::array<std::vector<FootPlace>, 2>& feet) {
+  std::vector<RigidTransform> joints(state.motion.skeleton.joints.size());
+  const double ramp = kSoftRamp_s * state.motion.rate.hz;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const retarget::LimbMap& leg = state.map.leg(static_cast<int>(side));
+    const auto away = frames_from_stance(
+        retarget::frame_marks(state.contacts.feet[side].stance, settled.size()));
+    for (std::size_t t = 0; t < settled.size(); ++t) {
+      FootPlace& place = feet[side][t];
+      if (away[t] == 0.0 || is_same_place(before.feet[side][t], place)) continue;
+      world_from_joints(state.motion.skeleton, state.motion.poses[t], joints);
+      const glm::dvec3 hip = joints[index(leg.upper)].translation;
+      const glm::dvec3 ankle = joints[index(leg.end)].translation;
+      const glm::dvec3 settled_hip = hip + settled[t].root - before.poses[t].root;
+      const glm::dvec3 reach = place.ankle_in_world - settled_hip;
+      const double planned = glm::length(reach) / leg.length_m();
+      if (planned <= kFreeExtension) continue;
+      const double own = glm::distance(hip, ankle) / leg.length_m();
+      const double share = retarget::smooth_step(away[t] / ramp);
+      const double wanted = planned + share * (soft_extension(planned, own) - planned);
+      place.ankle_in_world = settled_hip + (wanted / planned) * reach;
+    }
+  }
+}
+
 double largest_move_m(const PlantFrames& before,
                       const std::array<std::vector<FootPlace>, 2>& feet) {
   double largest = 0.0;
@@ -140,7 +199,7 @@ void raise(std::vector<NormalizedPose>& poses, double height_m) {
 
 void settle(const PlantFrames& before,
             std::array<std::vector<FootPlace>, 2> feet,
-            const retarget::GroundOptions& ground,
+            const SetFeetOptions& options,
             EditState& state,
             PlantReport& report) {
   std::vector<NormalizedPose> settled = before.poses;
@@ -151,7 +210,8 @@ void settle(const PlantFrames& before,
                                  state.motion.rate,
                                  settled,
                                  feet,
-                                 ground);
+                                 options.ground);
+  if (options.soft_swings) soften_swings(settled, before, state, feet);
   report.unreachable_frames = take_legs(settled, before, feet, state);
 }
 
@@ -179,7 +239,7 @@ PlantReport plant_feet(EditState& state) {
 
 PlantReport set_feet(EditState& state,
                      const std::array<std::vector<std::optional<FootPlace>>, 2>& feet,
-                     const retarget::GroundOptions& ground) {
+                     const SetFeetOptions& options) {
   PlantReport report;
   report.slide_before_mm = measure_slide(state).worst_drift_mm;
   const PlantFrames before = plant_frames(state);
@@ -190,7 +250,7 @@ PlantReport set_feet(EditState& state,
       if (feet[side][t]) planned[side][t] = *feet[side][t];
     }
   }
-  settle(before, std::move(planned), ground, state, report);
+  settle(before, std::move(planned), options, state, report);
   report.slide_after_mm = measure_slide(state).worst_drift_mm;
   return report;
 }

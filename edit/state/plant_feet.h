@@ -29,6 +29,13 @@ struct PlantReport {
 /// keep their pose to rounding. Linear in frames.
 PlantReport plant_feet(EditState& state);
 
+struct SetFeetOptions {
+  retarget::GroundOptions ground{};
+  /// A swinging foot that is planned further away than its leg reaches is drawn nearer,
+  /// so that the knee does not become straight within a frame.
+  bool soft_swings = false;
+};
+
 /// Makes the legs reach feet that were planned by the caller: one FootPlace per frame and
 /// side (T-pose-relative world rotations). Frames with a foot that is nullopt keep that
 /// foot. The root sinks where a leg would not reach (`ground`; 0.2 s by default).
@@ -36,7 +43,7 @@ PlantReport plant_feet(EditState& state);
 PlantReport set_feet(
     EditState& state,
     const std::array<std::vector<std::optional<retarget::FootPlace>>, 2>& feet,
-    const retarget::GroundOptions& ground = {});
+    const SetFeetOptions& options = {});
 
 /// Returns the place of a foot in each frame of a motion. Side 0 is left.
 [[nodiscard]] std::vector<retarget::FootPlace> foot_places(const EditState& state,

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/base/assert.h"
@@ -31,9 +32,13 @@ using PlannedFeet = std::array<std::vector<std::optional<FootPlace>>, 2>;
 constexpr double kMinFade_s = 0.15;
 // Fade of a foot that does not stand again. [s]
 constexpr double kFreeFade_s = 0.4;
+// Time round the zone in which a foot stays on its footprint, and the time over which its
+// displacement then becomes constant. [s]
+constexpr double kKept_s = 0.1;
+constexpr double kHoldFade_s = 0.4;
 // Time over which the change of a displacement is fitted, and over which it fades. [s]
 constexpr double kRateFit_s = 0.04;
-constexpr double kRateFade_s = 0.15;
+constexpr double kRateFade_s = 0.25;
 
 bool overlaps(const FrameRange& a, const FrameRange& b) {
   return a.first <= b.last && b.first <= a.last;
@@ -81,6 +86,18 @@ FootOffset offset_of(const FootPlace& from, const FootPlace& to) {
   return {to.ankle_in_world - from.ankle_in_world,
           turn_from(from.foot, to.foot),
           turn_from(from.toes, to.toes)};
+}
+
+FootOffset mixed_offset(const FootOffset& a, const FootOffset& b, double share) {
+  return {glm::mix(a.ankle, b.ankle, share),
+          glm::mix(a.foot, b.foot, share),
+          glm::mix(a.toes, b.toes, share)};
+}
+
+FootPlace displaced_place(const FootPlace& place, const FootOffset& offset) {
+  return {place.ankle_in_world + offset.ankle,
+          glm::normalize(rotation_from_vector(offset.foot) * place.foot),
+          glm::normalize(rotation_from_vector(offset.toes) * place.toes)};
 }
 
 // One foot over the whole motion: where it is, and where it stands in planted stances.
@@ -195,6 +212,28 @@ void hold_prints(const std::vector<FootPlace>& level,
   }
 }
 
+// Beyond the zone a long stance is displaced as a whole: the foot moves on its footprint
+// as it did before, because the legs of a captured motion fit that. From `start` on, in
+// the direction of `step`, the displacement becomes that of the frame `fade` frames
+// later.
+void hold_displacement(const std::vector<FootPlace>& before,
+                       const FrameRange& run,
+                       int start,
+                       int step,
+                       int fade,
+                       std::vector<FootPlace>& planned) {
+  const int end = start + step * fade;
+  if (start < run.first || start > run.last || end < run.first || end > run.last) return;
+  const auto at = [](int frame) { return static_cast<std::size_t>(frame); };
+  const FootOffset held = offset_of(before[at(end)], planned[at(end)]);
+  for (int t = start; t >= run.first && t <= run.last; t += step) {
+    const double share =
+        retarget::smooth_step(static_cast<double>(std::abs(t - start)) / fade);
+    const FootOffset own = offset_of(before[at(t)], planned[at(t)]);
+    planned[at(t)] = displaced_place(before[at(t)], mixed_offset(own, held, share));
+  }
+}
+
 // Returns one foot on its footprints in the stances near the zone.
 std::vector<std::optional<FootPlace>> planted_foot(const EditState& state,
                                                    int side,
@@ -223,6 +262,12 @@ std::vector<std::optional<FootPlace>> planted_foot(const EditState& state,
       level, contacts, state.map.feet[foot], state.map.leg_length_m, state.motion.rate);
   hold_prints(level, contacts, zone, state.map.feet[foot], state.motion.rate, planned);
   for (FootPlace& place : planned) place.ankle_in_world.y -= rise_m;
+  const int kept = std::max(1, static_cast<int>(std::lround(kKept_s * hz)));
+  const int fade = std::max(1, static_cast<int>(std::lround(kHoldFade_s * hz)));
+  for (const FrameRange& run : contacts.stance) {
+    hold_displacement(before, run, zone.last + kept, +1, fade, planned);
+    hold_displacement(before, run, zone.first - kept, -1, fade, planned);
+  }
   return place_stances(stances, *chosen, hz, {before, planned, {}});
 }
 
@@ -259,7 +304,7 @@ PlantNearReport plant_feet_near(EditState& state,
   }
   report.changed = changed_frames(planned);
   if (report.changed.first <= report.changed.last) {
-    report.plant = set_feet(state, planned);
+    report.plant = set_feet(state, planned, {{}, true});
   }
   return report;
 }

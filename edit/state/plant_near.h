@@ -25,11 +25,13 @@ using FootWays = std::array<std::vector<retarget::FootPlace>, 2>;
 /// Makes the feet stand still as plant_feet() does, but only in the stances that touch
 /// the frames of `zone`, and in neighbours that follow within 0.15 s. The footprints are
 /// those of `feet` in these stances; its other frames have no effect. Within the zone a
-/// footprint does not turn, even if the foot does. The displacement of
-/// a foot at the edges of its stances fades out over the swings before and after (0.4 s
-/// if the foot does not stand there), with continuous speed and acceleration. Linear in
-/// frames.
-/// Precondition: the zone is within the motion; one place per frame.
+/// footprint does not turn, even if the foot does. The displacement of a foot at the
+/// edges of its stances fades out over the swings before and after (0.4 s if the foot
+/// does not stand there), with continuous speed and acceleration. A swinging foot is not
+/// displaced further than its leg reaches with a bent knee. In a stance that goes on for
+/// more than 0.5 s beyond the zone, the displacement is constant from there on: the foot
+/// moves as it did before. Linear in frames. Precondition: the zone is within the motion;
+/// one place per frame.
 PlantNearReport plant_feet_near(EditState& state,
                                 const FrameRange& zone,
                                 const FootWays& feet);

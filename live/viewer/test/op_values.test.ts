@@ -32,8 +32,10 @@ const recipe = {sources: ['', 'stop'].map((id) => ({id, file: '', frames: 1, rat
 const shown = shownOf(output, 100.4, recipe);
 
 test('a value that the absence of its key means is removed', () => {
-  assert.deepEqual(set({do: 'splice@1', source: 'a', overlap_s: 1}, {overlap_s: 0.3}),
+  assert.deepEqual(set({do: 'splice@1', source: 'a', align: false}, {align: true}),
     {do: 'splice@1', source: 'a'});
+  assert.deepEqual(set({do: 'splice@1', source: 'a'}, {overlap_s: 0.3}),
+    {do: 'splice@1', source: 'a', overlap_s: 0.3});
   assert.deepEqual(set({do: 'level@1', tilt: false}, {tilt: true}), {do: 'level@1'});
   assert.deepEqual(set({do: 'filter@1'}, {blend_s: 0, why: ''}), {do: 'filter@1'});
   assert.deepEqual(set({do: 'contacts@1', detect: true, edits: [{do: 'set'}]}, {edits: []}),

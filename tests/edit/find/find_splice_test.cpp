@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "edit/find/find_splice.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -92,6 +94,40 @@ TEST(FindSplice, WithoutAlignmentThePlaceCounts) {
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(found[0].enter, 250);
   EXPECT_EQ(found[0].match.a_from_b.turn_rad, 0.0);
+}
+
+// A fast walk, and the same played backwards: it travels against its facing direction.
+// Turned round its travel would fit, and its body would have to turn within the overlap.
+TEST(FindSplice, MotionsOfOppositeTravelFaceTheSameDirection) {
+  Motion motion = testing::synthetic_walk(100, 30.0).motion;
+  for (Pose& pose : motion.poses) pose.root_in_world.z *= 4.0;
+  Motion reversed = motion;
+  std::reverse(reversed.poses.begin(), reversed.poses.end());
+  const auto walk = make_edit_state(std::move(motion));
+  const auto back = make_edit_state(std::move(reversed), {}, 1);
+  ASSERT_TRUE(walk && back);
+  const auto hips_across = [](const EditState& state, int frame) {
+    const auto t = static_cast<std::size_t>(frame);
+    return joint_way(state.motion, HumanBone::kLeftUpperLeg)[t] -
+           joint_way(state.motion, HumanBone::kRightUpperLeg)[t];
+  };
+  const auto facing_cosine = [&](const SpliceCandidate& pair) {
+    const glm::dvec3 a = hips_across(*walk, pair.leave);
+    const glm::dvec3 b = pair.match.a_from_b.rotation() * hips_across(*back, pair.enter);
+    return (a.x * b.x + a.z * b.z) / (std::hypot(a.x, a.z) * std::hypot(b.x, b.z));
+  };
+  FindSpliceOptions options;
+  const auto found = find_splices(*walk, *back, whole_windows(*walk, *back), options);
+  ASSERT_FALSE(found.empty());
+  for (const SpliceCandidate& pair : found) {
+    EXPECT_GT(facing_cosine(pair), std::cos(0.5 /* rad */)) << pair.leave;
+    EXPECT_NEAR(std::cos(pair.facing_rad), facing_cosine(pair), 0.02);
+  }
+  // The scene is one in which the cost decides.
+  options.facing_m = 0.0;
+  const auto turned = find_splices(*walk, *back, whole_windows(*walk, *back), options);
+  ASSERT_FALSE(turned.empty());
+  EXPECT_LT(facing_cosine(turned.front()), 0.0);
 }
 
 }  // namespace

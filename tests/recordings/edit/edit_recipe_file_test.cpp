@@ -117,6 +117,7 @@ TEST(EditRecipeFile, ReadsEveryKeyOfCuts) {
   EXPECT_EQ(splice.enter_at, Moment(AtFrame{4.0}));
   EXPECT_EQ(splice.overlap_s, 0.0);
   EXPECT_FALSE(splice.align);
+  EXPECT_EQ(op_of<SpliceOp>("\"splice@1\"\nsource = \"b\"\n").overlap_s, std::nullopt);
 }
 
 TEST(EditRecipeFile, ReadsEveryKeyOfFilters) {

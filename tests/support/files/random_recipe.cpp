@@ -114,7 +114,7 @@ void fill(RecipeDice& dice, SpliceOp& op) {
   op.source = dice.chance() ? "s1" : "s2";
   op.at = dice.maybe_moment();
   op.enter_at = dice.maybe_moment();
-  op.overlap_s = dice.between(0.0, 1.0);
+  if (dice.chance()) op.overlap_s = dice.between(0.0, 1.0);
   op.align = dice.chance();
 }
 void fill(RecipeDice& dice, FilterOp& op) {

@@ -125,7 +125,7 @@ const JOIN: OpSchema[] = [
     {...choice('source', 'Source', [], need), supply: 'sources'},
     at('Leave at', {absent: 'best frame'}),
     plain('instant', 'enter_at', 'Enter at', {absent: 'best frame'}),
-    number('overlap_s', 'Overlap', LIMITS.fade, {default: 0.3,
+    number('overlap_s', 'Overlap', LIMITS.fade, {absent: 'chosen',
       help: '0: both are displaced towards each other'}),
     plain('boolean', 'align', 'Turn and move the source so that it fits', {default: true}),
   ], common: ['span', 'blend']},
