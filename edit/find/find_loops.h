@@ -10,6 +10,7 @@
 #include "edit/state/edit_state.h"
 
 #include "core/base/frame_range.h"
+#include "core/base/result.h"
 
 namespace marey::edit {
 
@@ -56,11 +57,17 @@ struct LoopPeriods {
 [[nodiscard]] std::optional<LoopPeriods> loop_periods(const EditState& state,
                                                       const FindLoopsOptions& options);
 
+/// Returns an error if find_loops() would compare more than 2000 million pairs, a few
+/// minutes of work. Errors (bad input): that.
+[[nodiscard]] Status check_loop_search(const EditState& state,
+                                       const FindLoopsOptions& options);
+
 /// Finds pairs of frames that repeat each other, best first. All pairs in the range of
 /// periods are compared by five joints, positions and velocities over five frames
 /// (edit/find/loop_cost.h); the best local minima are compared again by all joints and
 /// sorted by PlanarMatch::distance_m. Both frames have the same feet on the floor.
-/// Empty if loop_periods() is nullopt. Cost: frames times the range in frames.
+/// Empty if loop_periods() is nullopt. Time: frames times the range in frames; memory:
+/// linear in frames.
 [[nodiscard]] std::vector<LoopCandidate> find_loops(const EditState& state,
                                                     const FindLoopsOptions& options = {});
 

@@ -152,6 +152,7 @@ Result<ChosenCycle> best_cycle(const CyclifyOp& op,
       return bad_cyclify("the span has less than 3 frames", "choose a longer span");
     }
   }
+  if (const Status ok = check_loop_search(state, options); !ok) return ok.error();
   const std::vector<LoopCandidate> loops = find_loops(state, options);
   if (loops.empty()) return no_cycle(state, options);
   return chosen(state, op, best_with_room(loops, state));
