@@ -42,6 +42,12 @@ struct OpApplier {
   const OpContext& context;
   const EditState& state;
   OpReport& report;
+  EditState* own = nullptr;  ///< `state`, if it may be used up.
+
+  [[nodiscard]] EditState taken() const {
+    if (own == nullptr) return state;
+    return std::move(*own);
+  }
 
   States operator()(const CutOp& op) const {
     return one(apply_cut(op, context, state, report));
@@ -108,24 +114,23 @@ struct OpApplier {
     return one(apply_balance(op, context, state, report));
   }
   States operator()(const TagOp& op) const {
-    return one(apply_tag(op, context, state, report));
+    return one(apply_tag(op, context, taken(), report));
   }
   States operator()(const EventOp& op) const {
-    return one(apply_event(op, context, state, report));
+    return one(apply_event(op, context, taken(), report));
   }
   States operator()(const CurveOp& op) const {
-    return one(apply_curve(op, context, state, report));
+    return one(apply_curve(op, context, taken(), report));
   }
   States operator()(const RetargetOp& op) const {
     return one(apply_retarget(op, context, state, report));
   }
 };
 
-}  // namespace
-
-Result<std::vector<EditState>> apply_op(const OpContext& context,
-                                        const EditState& state,
-                                        OpReport& report) {
+States apply_as(const OpContext& context,
+                const EditState& state,
+                EditState* own,
+                OpReport& report) {
   report.index = context.index;
   const std::string op_name(name(context.op.parameters));
   report.name = op_name + "@" + std::to_string(context.op.version);
@@ -135,7 +140,7 @@ Result<std::vector<EditState>> apply_op(const OpContext& context,
                      "write " + op_name + "@" + std::to_string(kEditOpVersion) +
                          ", or use the version of marey that the recipe was made with");
   }
-  auto made = std::visit(OpApplier{context, state, report}, context.op.parameters);
+  auto made = std::visit(OpApplier{context, state, report, own}, context.op.parameters);
   if (made) return made;
   Error error = made.error();
   if (error.where.empty() || error.where == op_name) {
@@ -144,6 +149,21 @@ Result<std::vector<EditState>> apply_op(const OpContext& context,
     error.where = report.name + ": " + error.where;
   }
   return error;
+}
+
+}  // namespace
+
+Result<std::vector<EditState>> apply_op(const OpContext& context,
+                                        const EditState& state,
+                                        OpReport& report) {
+  return apply_as(context, state, nullptr, report);
+}
+
+Result<std::vector<EditState>> apply_op(const OpContext& context,
+                                        EditState&& state,
+                                        OpReport& report) {
+  EditState own = std::move(state);
+  return apply_as(context, own, &own, report);
 }
 
 }  // namespace marey::edit

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -33,13 +34,15 @@ void insert_note(Annotation note, Annotations& annotations) {
 /// Returns the value at a frame. Precondition: keys ascend by frame and are not empty.
 double value_at(const std::vector<std::pair<double, double>>& keys, double frame) {
   if (frame <= keys.front().first) return keys.front().second;
-  for (std::size_t i = 1; i < keys.size(); ++i) {
-    if (frame > keys[i].first) continue;
-    const double share =
-        (frame - keys[i - 1].first) / (keys[i].first - keys[i - 1].first);
-    return glm::mix(keys[i - 1].second, keys[i].second, share);
-  }
-  return keys.back().second;
+  const auto after = std::lower_bound(
+      keys.begin(),
+      keys.end(),
+      frame,
+      [](const std::pair<double, double>& key, double at) { return key.first < at; });
+  if (after == keys.end()) return keys.back().second;
+  const auto before = std::prev(after);
+  const double share = (frame - before->first) / (after->first - before->first);
+  return glm::mix(before->second, after->second, share);
 }
 
 Result<std::vector<std::pair<double, double>>> curve_keys(const CurveOp& op,
@@ -64,35 +67,33 @@ Result<std::vector<std::pair<double, double>>> curve_keys(const CurveOp& op,
 
 Result<EditState> apply_tag(const TagOp& op,
                             const OpContext& context,
-                            const EditState& state,
+                            EditState state,
                             OpReport& /*report*/) {
   if (const Status ok = check_op_keys(context.op, {.span = true}); !ok) return ok.error();
   if (const Status ok = check_text(op.text, "text"); !ok) return ok.error();
   const auto span = resolve_span(state, context.op.span);
   if (!span) return span.error();
-  EditState out = state;
   const double hz = state.motion.rate.hz;
-  insert_note({op.text, span->first / hz, span->last / hz}, out.annotations);
-  return out;
+  insert_note({op.text, span->first / hz, span->last / hz}, state.annotations);
+  return state;
 }
 
 Result<EditState> apply_event(const EventOp& op,
                               const OpContext& context,
-                              const EditState& state,
+                              EditState state,
                               OpReport& /*report*/) {
   if (const Status ok = check_op_keys(context.op, {}); !ok) return ok.error();
   if (const Status ok = check_text(op.text, "text"); !ok) return ok.error();
   const auto frame = resolve_moment(state, op.at);
   if (!frame) return frame.error();
-  EditState out = state;
   const double time_s = *frame / state.motion.rate.hz;
-  insert_note({op.text, time_s, time_s}, out.annotations);
-  return out;
+  insert_note({op.text, time_s, time_s}, state.annotations);
+  return state;
 }
 
 Result<EditState> apply_curve(const CurveOp& op,
                               const OpContext& context,
-                              const EditState& state,
+                              EditState state,
                               OpReport& /*report*/) {
   if (const Status ok = check_op_keys(context.op, {}); !ok) return ok.error();
   if (const Status ok = check_text(op.name, "name"); !ok) return ok.error();
@@ -102,8 +103,7 @@ Result<EditState> apply_curve(const CurveOp& op,
   for (int frame = 0; frame < state.frame_count(); ++frame) {
     curve.values.push_back(value_at(*keys, frame));
   }
-  EditState out = state;
-  auto& curves = out.annotations.curves;
+  auto& curves = state.annotations.curves;
   const auto same = std::find_if(curves.begin(), curves.end(), [&](const ValueCurve& c) {
     return c.name == op.name;
   });
@@ -112,7 +112,7 @@ Result<EditState> apply_curve(const CurveOp& op,
   } else {
     curves.push_back(std::move(curve));
   }
-  return out;
+  return state;
 }
 
 }  // namespace marey::edit
