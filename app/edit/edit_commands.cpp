@@ -62,8 +62,8 @@ Result<EditRun> render_recipe(const fs::path& file,
   edit::RenderOptions options;
   options.recipe_file = file.string();
   if (args.until) options.until = static_cast<std::size_t>(*args.until);
-  auto rendered =
-      edit::render(run.recipe, run.files.inputs, options, console.stage("edit"));
+  auto rendered = edit::render(
+      run.recipe, std::move(run.files.inputs), options, console.stage("edit"));
   if (!rendered) return rendered.error();
   run.rendered = *std::move(rendered);
   return run;

@@ -12,6 +12,7 @@
 #include "edit/render.h"
 #include "edit/state/edit_state.h"
 
+#include "app/edit/edit_outputs.h"
 #include "app/motion/raw_body.h"
 #include "app/motion/read_body.h"
 #include "core/base/extension.h"
@@ -109,6 +110,9 @@ class EditReader {
     const bool is_recipe = file.string().ends_with(".edit.toml");
     auto state = is_recipe ? render_source(file, place) : read_motion_source(file, place);
     if (!state) return state.error();
+    if (place == 0) {
+      out_.source_peak_m_per_s2 = peak_acceleration_m_per_s2(state->motion);
+    }
     out_.inputs.sources.insert_or_assign(source.id, *std::move(state));
     return Done{};
   }
@@ -169,7 +173,7 @@ class EditReader {
     if (!files) return files.error();
     edit::RenderOptions render;
     render.recipe_file = file.string();
-    auto rendered = edit::render(*recipe, files->inputs, render);
+    auto rendered = edit::render(*recipe, std::move(files->inputs), render);
     if (!rendered) return rendered.error();
     if (rendered->outputs.size() != 1) {
       return bad_input(file.string(),
