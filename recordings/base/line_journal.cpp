@@ -3,12 +3,16 @@
 #include "recordings/base/line_journal.h"
 
 #include <cerrno>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include "core/base/assert.h"
@@ -41,6 +45,33 @@ int write_all(int fd, std::string_view bytes, std::int64_t offset) {
     offset += written;
   }
   return 0;
+}
+
+/// Returns " (process 123)" for the process that holds the lock of a file; empty if the
+/// system does not tell.
+std::string lock_holder(const struct stat& file) {
+  std::ifstream locks("/proc/locks");
+  char id[64];
+  std::snprintf(id,
+                sizeof id,
+                "%02x:%02x:%llu",
+                major(file.st_dev),
+                minor(file.st_dev),
+                static_cast<unsigned long long>(file.st_ino));
+  for (std::string line; std::getline(locks, line);) {
+    // 1: FLOCK  ADVISORY  WRITE 123 08:01:456 0 EOF
+    std::istringstream words(line);
+    std::string number;
+    std::string kind;
+    std::string mode;
+    std::string access;
+    long process = 0;
+    std::string locked;
+    words >> number >> kind >> mode >> access >> process >> locked;
+    if (kind != "FLOCK" || locked != id || process <= 0) continue;
+    return " (process " + std::to_string(process) + ")";
+  }
+  return {};
 }
 
 /// Stores a new file's name in its folder.
@@ -83,8 +114,9 @@ Result<LineJournal> LineJournal::open(const fs::path& path) {
   }
   // A file system without locks gives another error: then there is no protection.
   if (::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    return bad_input(
-        path.string(), "is open in another marey", "end that one, or use its page");
+    return bad_input(path.string(),
+                     "is open in another marey" + lock_holder(stat),
+                     "end that one, or use its page");
   }
   if (::fstat(fd, &stat) != 0) return journal_disk_error(path, "cannot be read", errno);
   if (stat.st_size > kMaxJournalBytes) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// All operations on motions of a few frames and with keys that suit no motion. Each must
-// give a whole result, or say in which operation, why, and what to do.
+// All operations on motions of a few frames and with keys that suit no motion. Each gives
+// a whole result, or a message with its name, the cause and the next step.
 #include <cmath>
 #include <cstddef>
 #include <set>
@@ -223,10 +223,10 @@ TEST(DegenerateMotions, SpansWithoutAFrameOrTheWrongWayRound) {
 }
 
 TEST(DegenerateMotions, RandomKeysOfEveryOperation) {
-  for (const int frames : {1, 2, 5, 60}) {
-    const EditInputs inputs = inputs_of(frames, 60.0);
+  for (const int frames : {1, 2, 5, 60, 600}) {
+    const EditInputs inputs = inputs_of(frames, frames == 600 ? 10.0 : 60.0);
     for (std::size_t kind = 0; kind < edit_op_names().size(); ++kind) {
-      for (std::uint64_t seed = 0; seed < 12; ++seed) {
+      for (std::uint64_t seed = 0; seed < (frames == 600 ? 6 : 24); ++seed) {
         EditOp op = testing::random_edit_op(seed, kind);
         const std::string what = std::string(name(op.parameters)) + ", seed " +
                                  std::to_string(seed) + ", " + std::to_string(frames) +
