@@ -130,7 +130,7 @@ class EditReader {
             file, read->exchanged, "a .bones.toml file next to the motion")) {
       return swapped->error();
     }
-    if (place == 0) {
+    if (place == 0 && is_gltf(file)) {
       if (auto body = open_avatar(BodyFile(file))) out_.look = std::move(body->look);
     }
     auto state =
@@ -144,9 +144,9 @@ class EditReader {
   /// Returns the uncertainty that an .npz holds for all joints; empty: none.
   static std::vector<std::vector<JointUncertainty>> uncertainty_of(const fs::path& file) {
     if (kind_by_extension(file) != ".npz") return {};
-    auto npz = recordings::read_npz(file);
-    if (!npz) return {};
-    return std::move(npz->uncertainty);
+    auto uncertainty = recordings::read_npz_uncertainty(file);
+    if (!uncertainty) return {};
+    return *std::move(uncertainty);
   }
 
   Result<edit::EditState> render_source(const fs::path& file, int place) {
