@@ -21,8 +21,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "app/motion/retarget_files.h"
 #include "core/base/stopwatch.h"
-#include "recordings/motion/bvh.h"
 #include "recordings/motion/npz.h"
 #include "tests/edit/ops/op_scene.h"
 #include "tests/support/program/scratch_folder.h"
@@ -72,7 +72,10 @@ Cost cost_of(const std::vector<std::string>& words) {
 /// Repeats the best cycle of a walk.
 Motion repeated(const Motion& walk, int frames) {
   auto state = edit::make_edit_state(walk);
-  if (!state) return {};
+  if (!state) {
+    std::printf("%s\n", state.error().message().c_str());
+    return {};
+  }
   edit::EditInputs inputs;
   inputs.sources.emplace("", *std::move(state));
   EditRecipe recipe;
@@ -99,12 +102,13 @@ Motion long_walk(const std::string& file, int frames) {
   if (file.empty()) {
     return testing::synthetic_walk(frames, kRate_hz, 0.002, 0.0005).motion;
   }
-  auto clip = recordings::read_bvh(file);
+  const auto clip = app::read_motion(app::BodyFile(file));
   if (!clip) {
     std::printf("%s\n", clip.error().message().c_str());
     std::exit(1);
   }
   Motion out = repeated(clip->motion, frames);
+  if (out.poses.empty()) std::exit(1);
   edit::add_motion_noise(out, 1, 0.002, 0.0005);
   return out;
 }
