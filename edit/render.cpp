@@ -139,7 +139,11 @@ Result<Rendered> render_from(const EditRecipe& recipe,
       if (!ok) return at_line(ok.error(), op, i, options.recipe_file);
       kept = {};
       if (options.cache != nullptr && !options.keys.empty() && is_kept(i, count)) {
-        options.cache->store(options.keys[i], out);
+        const Rendered* stored = options.cache->store(options.keys[i], std::move(out));
+        if (stored != nullptr) {
+          kept = stored->outputs;
+          out = Rendered{{}, stored->reports};
+        }
       }
     }
     if (progress) progress(static_cast<int>(i + 1), static_cast<int>(count));
@@ -158,18 +162,19 @@ const Rendered* EditCache::find(const std::string& key) {
   return &entries_.front().result;
 }
 
-void EditCache::store(const std::string& key, const Rendered& result) {
-  if (find(key) != nullptr) return;
+const Rendered* EditCache::store(const std::string& key, Rendered&& result) {
+  if (const Rendered* known = find(key); known != nullptr) return known;
   std::size_t bytes = 0;
   for (const EditState& state : result.outputs) bytes += bytes_of(state);
   for (const OpReport& report : result.reports) bytes += bytes_of(report);
-  if (bytes > max_bytes_) return;
-  entries_.push_front({key, result, bytes});
+  if (bytes > max_bytes_) return nullptr;
+  entries_.push_front({key, std::move(result), bytes});
   bytes_ += bytes;
   while (bytes_ > max_bytes_) {
     bytes_ -= entries_.back().bytes;
     entries_.pop_back();
   }
+  return &entries_.front().result;
 }
 
 std::size_t bytes_of(const EditState& state) {

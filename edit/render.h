@@ -37,7 +37,9 @@ class EditCache {
 
   /// Returns the result, if it is known; valid until the next call of store().
   [[nodiscard]] const Rendered* find(const std::string& key);
-  void store(const std::string& key, const Rendered& result);
+  /// Takes a result. Returns the one in the cache, valid until the next call of store();
+  /// nullptr: it is too large, and `result` is as before.
+  const Rendered* store(const std::string& key, Rendered&& result);
 
  private:
   struct Entry {
