@@ -12,7 +12,7 @@
 #include "edit/render.h"
 #include "edit/state/edit_state.h"
 
-#include "app/edit/edit_outputs.h"
+#include "app/edit/peak_acceleration.h"
 #include "app/motion/raw_body.h"
 #include "app/motion/read_body.h"
 #include "core/base/extension.h"

@@ -10,13 +10,12 @@
 #include "edit/state/measure_constraints.h"
 #include "edit/state/plant_feet.h"
 #include "edit/state/resolve_moment.h"
-#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/edit/edit_json.h"
+#include "app/edit/peak_acceleration.h"
 #include "app/motion/marey_skeleton.h"
 #include "core/base/format_text.h"
-#include "core/pose.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/body/constraints_file.h"
 #include "recordings/body/mannequin.h"
@@ -172,25 +171,6 @@ std::vector<std::string> edit_names(const EditRecipe& recipe, std::size_t output
     out.push_back(recipe.name + "." + std::to_string(i + 1));
   }
   return out;
-}
-
-double peak_acceleration_m_per_s2(const Motion& motion) {
-  const std::size_t joints = motion.skeleton.joints.size();
-  std::array<std::vector<RigidTransform>, 3> world;
-  for (auto& frame : world) frame.resize(joints);
-  double peak = 0.0;
-  for (std::size_t t = 0; t < motion.poses.size(); ++t) {
-    world_from_joints(motion.skeleton, motion.poses[t], world[t % 3]);
-    if (t < 2) continue;
-    for (std::size_t j = 0; j < joints; ++j) {
-      if (!motion.skeleton.joints[j].bone) continue;
-      const glm::dvec3 change = world[t % 3][j].translation -
-                                2.0 * world[(t - 1) % 3][j].translation +
-                                world[(t - 2) % 3][j].translation;
-      peak = std::max(peak, glm::length(change));
-    }
-  }
-  return peak * motion.rate.hz * motion.rate.hz;
 }
 
 std::vector<EditFigures> measure_edit(const EditRecipe& recipe,

@@ -28,10 +28,6 @@ struct EditOutput {
 [[nodiscard]] std::vector<std::string> edit_names(const EditRecipe& recipe,
                                                   std::size_t outputs);
 
-/// Returns the peak acceleration of a joint with a bone. [m/s^2] Linear in frames times
-/// joints.
-[[nodiscard]] double peak_acceleration_m_per_s2(const Motion& motion);
-
 [[nodiscard]] std::vector<EditFigures> measure_edit(const EditRecipe& recipe,
                                                     const EditFiles& files,
                                                     const edit::Rendered& rendered);

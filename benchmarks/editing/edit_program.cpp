@@ -23,8 +23,9 @@
 
 #include "app/motion/retarget_files.h"
 #include "core/base/stopwatch.h"
+#include "core/transform.h"
 #include "recordings/motion/npz.h"
-#include "tests/edit/ops/op_scene.h"
+#include "tests/support/bodies/random_bodies.h"
 #include "tests/support/program/scratch_folder.h"
 #include "tests/support/simulation/synthetic_walk.h"
 
@@ -109,7 +110,15 @@ Motion long_walk(const std::string& file, int frames) {
   }
   Motion out = repeated(clip->motion, frames);
   if (out.poses.empty()) std::exit(1);
-  edit::add_motion_noise(out, 1, 0.002, 0.0005);
+  testing::Dice dice(1);
+  for (Pose& pose : out.poses) {
+    for (glm::dquat& q : pose.parent_from_joint) {
+      q = q *
+          rotation_from_vector({dice.noise(0.002), dice.noise(0.002), dice.noise(0.002)});
+    }
+    pose.root_in_world +=
+        glm::dvec3(dice.noise(5e-4), dice.noise(5e-4), dice.noise(5e-4));
+  }
   return out;
 }
 

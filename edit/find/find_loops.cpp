@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "edit/find/loop_cost.h"
-#include "edit/find/loop_pairs.h"
 
 #include "core/base/assert.h"
 #include "core/base/format_text.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "edit/find/foot_period.h"
+#include "edit/find/loop_pairs.h"
 #include "edit/find/planar_match.h"
 #include "edit/state/edit_state.h"
 
@@ -13,9 +13,6 @@
 #include "core/base/result.h"
 
 namespace marey::edit {
-
-/// Contacts of the feet at the start and the end of a cycle.
-enum class LoopEdge { kLeftStrike, kRightStrike, kNone };
 
 /// A pair of frames between which a motion is nearly a cycle.
 struct LoopCandidate {
@@ -46,12 +43,6 @@ struct FindLoopsOptions {
   double strike_preference = 1.0;
 };
 
-/// The range of cycle lengths that find_loops() searches.
-struct LoopPeriods {
-  int min_frames = 0;
-  int max_frames = 0;
-  std::optional<FootPeriod> feet;  ///< If the options do not give both limits.
-};
 /// nullopt: the options give no limits and the feet have no period; or the motion is too
 /// short for the shortest cycle.
 [[nodiscard]] std::optional<LoopPeriods> loop_periods(const EditState& state,

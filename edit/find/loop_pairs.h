@@ -3,12 +3,26 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
-#include "edit/find/find_loops.h"
+#include "edit/find/foot_period.h"
+#include "edit/find/planar_match.h"
 #include "edit/state/edit_state.h"
 
+#include "core/base/frame_range.h"
+
 namespace marey::edit {
+
+/// Contacts of the feet at the start and the end of a cycle.
+enum class LoopEdge { kLeftStrike, kRightStrike, kNone };
+
+/// The range of cycle lengths that find_loops() searches.
+struct LoopPeriods {
+  int min_frames = 0;
+  int max_frames = 0;
+  std::optional<FootPeriod> feet;  ///< If the options do not give both limits.
+};
 
 /// Feet on the floor, and the edge, of each frame.
 struct SupportMarks {

@@ -3,7 +3,6 @@
 #include "recordings/base/line_journal.h"
 
 #include <cerrno>
-#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <system_error>
@@ -12,7 +11,6 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include "core/base/assert.h"
@@ -47,17 +45,23 @@ int write_all(int fd, std::string_view bytes, std::int64_t offset) {
   return 0;
 }
 
+/// Returns true if a process has the file open. False if the system does not tell.
+bool has_open(const std::string& process, const fs::path& file) {
+  std::error_code failed;
+  for (auto it = fs::directory_iterator("/proc/" + process + "/fd", failed);
+       !failed && it != fs::directory_iterator();
+       it.increment(failed)) {
+    std::error_code other;
+    if (fs::equivalent(it->path(), file, other)) return true;
+  }
+  return false;
+}
+
 /// Returns " (process 123)" for the process that holds the lock of a file; empty if the
 /// system does not tell.
-std::string lock_holder(const struct stat& file) {
+std::string lock_holder(const fs::path& file, ino_t inode) {
   std::ifstream locks("/proc/locks");
-  char id[64];
-  std::snprintf(id,
-                sizeof id,
-                "%02x:%02x:%llu",
-                major(file.st_dev),
-                minor(file.st_dev),
-                static_cast<unsigned long long>(file.st_ino));
+  const std::string end = ":" + std::to_string(inode);
   for (std::string line; std::getline(locks, line);) {
     // 1: FLOCK  ADVISORY  WRITE 123 08:01:456 0 EOF
     std::istringstream words(line);
@@ -65,11 +69,12 @@ std::string lock_holder(const struct stat& file) {
     std::string kind;
     std::string mode;
     std::string access;
-    long process = 0;
+    std::string process;
     std::string locked;
     words >> number >> kind >> mode >> access >> process >> locked;
-    if (kind != "FLOCK" || locked != id || process <= 0) continue;
-    return " (process " + std::to_string(process) + ")";
+    if (kind == "FLOCK" && locked.ends_with(end) && has_open(process, file)) {
+      return " (process " + process + ")";
+    }
   }
   return {};
 }
@@ -115,7 +120,7 @@ Result<LineJournal> LineJournal::open(const fs::path& path) {
   // A file system without locks gives another error: then there is no protection.
   if (::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     return bad_input(path.string(),
-                     "is open in another marey" + lock_holder(stat),
+                     "is open in another marey" + lock_holder(path, stat.st_ino),
                      "end that one, or use its page");
   }
   if (::fstat(fd, &stat) != 0) return journal_disk_error(path, "cannot be read", errno);

@@ -164,8 +164,8 @@ EditOp plain_op(std::string_view op_name) {
   return op;
 }
 
-TEST(DegenerateMotions, EveryOperationWorksOrSaysWhyNot) {
-  // Which operations work on a single frame: the others say that they need more.
+TEST(DegenerateMotions, EveryOperationWorksOrNamesTheReason) {
+  // Which operations work on a single frame.
   std::set<std::string> on_one_frame;
   for (const int frames : {1, 2, 3, 4, 5, 7, 19, 20, 21, 60}) {
     for (const double hz : {120.0, 30.0, 1.0}) {
