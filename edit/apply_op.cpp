@@ -42,6 +42,12 @@ struct OpApplier {
   const OpContext& context;
   const EditState& state;
   OpReport& report;
+  EditState* own = nullptr;  ///< `state`, if it may be used up.
+
+  [[nodiscard]] EditState taken() const {
+    if (own == nullptr) return state;
+    return std::move(*own);
+  }
 
   States operator()(const CutOp& op) const {
     return one(apply_cut(op, context, state, report));
@@ -108,30 +114,44 @@ struct OpApplier {
     return one(apply_balance(op, context, state, report));
   }
   States operator()(const TagOp& op) const {
-    return one(apply_tag(op, context, state, report));
+    return one(apply_tag(op, context, taken(), report));
   }
   States operator()(const EventOp& op) const {
-    return one(apply_event(op, context, state, report));
+    return one(apply_event(op, context, taken(), report));
   }
   States operator()(const CurveOp& op) const {
-    return one(apply_curve(op, context, state, report));
+    return one(apply_curve(op, context, taken(), report));
   }
   States operator()(const RetargetOp& op) const {
     return one(apply_retarget(op, context, state, report));
   }
 };
 
+States apply_as(const OpContext& context,
+                const EditState& state,
+                EditState* own,
+                OpReport& report) {
+  report.index = context.index;
+  report.name = versioned_name(context.op);
+  if (const Status ok = check_version(context.op); !ok) return ok.error();
+  auto made = std::visit(OpApplier{context, state, report, own}, context.op.parameters);
+  if (made) return made;
+  return in_operation(made.error(), context.op);
+}
+
 }  // namespace
 
 Result<std::vector<EditState>> apply_op(const OpContext& context,
                                         const EditState& state,
                                         OpReport& report) {
-  report.index = context.index;
-  report.name = versioned_name(context.op);
-  if (const Status ok = check_version(context.op); !ok) return ok.error();
-  auto made = std::visit(OpApplier{context, state, report}, context.op.parameters);
-  if (made) return made;
-  return in_operation(made.error(), context.op);
+  return apply_as(context, state, nullptr, report);
+}
+
+Result<std::vector<EditState>> apply_op(const OpContext& context,
+                                        EditState&& state,
+                                        OpReport& report) {
+  EditState own = std::move(state);
+  return apply_as(context, own, &own, report);
 }
 
 }  // namespace marey::edit

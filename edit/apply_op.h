@@ -19,4 +19,10 @@ namespace marey::edit {
                                                       const EditState& state,
                                                       OpReport& report);
 
+/// The same, and may use the memory of the state: an operation that adds an annotation
+/// copies no frames.
+[[nodiscard]] Result<std::vector<EditState>> apply_op(const OpContext& context,
+                                                      EditState&& state,
+                                                      OpReport& report);
+
 }  // namespace marey::edit

@@ -28,7 +28,8 @@ struct Rendered {
 };
 
 /// Results of operations, by a key that names all that they depend on. When it is full,
-/// the results that were used longest ago are dropped.
+/// the results that were used longest ago are dropped. render() keeps the results of all
+/// operations of a recipe with up to 64 of them, and some of a longer one.
 class EditCache {
  public:
   explicit EditCache(std::size_t max_bytes = std::size_t{512} << 20)
@@ -36,7 +37,9 @@ class EditCache {
 
   /// Returns the result, if it is known; valid until the next call of store().
   [[nodiscard]] const Rendered* find(const std::string& key);
-  void store(const std::string& key, const Rendered& result);
+  /// Takes a result. Returns the one in the cache, valid until the next call of store();
+  /// nullptr: it is too large, and `result` is as before.
+  const Rendered* store(const std::string& key, Rendered&& result);
 
  private:
   struct Entry {
@@ -73,6 +76,13 @@ struct RenderOptions {
 /// as operations, or none.
 [[nodiscard]] Result<Rendered> render(const EditRecipe& recipe,
                                       const EditInputs& inputs,
+                                      const RenderOptions& options = {},
+                                      const Progress& progress = {});
+
+/// The same, and uses up the inputs: results take the memory of the first source. For
+/// motions of an hour, and programs that render once.
+[[nodiscard]] Result<Rendered> render(const EditRecipe& recipe,
+                                      EditInputs&& inputs,
                                       const RenderOptions& options = {},
                                       const Progress& progress = {});
 

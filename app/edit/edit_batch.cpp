@@ -100,7 +100,7 @@ BatchRow edit_one(EditRecipe recipe,
   }
   edit::RenderOptions options;
   options.recipe_file = recipe_file.string();
-  const auto rendered = edit::render(recipe, files->inputs, options);
+  const auto rendered = edit::render(recipe, std::move(files->inputs), options);
   if (!rendered) {
     row.error = rendered.error();
     return row;

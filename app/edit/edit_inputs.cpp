@@ -12,6 +12,7 @@
 #include "edit/render.h"
 #include "edit/state/edit_state.h"
 
+#include "app/edit/peak_acceleration.h"
 #include "app/motion/raw_body.h"
 #include "app/motion/read_body.h"
 #include "core/base/extension.h"
@@ -81,6 +82,9 @@ class EditReader {
     const bool is_recipe = file.string().ends_with(".edit.toml");
     auto state = is_recipe ? render_source(file, place) : read_motion_source(file, place);
     if (!state) return state.error();
+    if (place == 0) {
+      out_.source_peak_m_per_s2 = peak_acceleration_m_per_s2(state->motion);
+    }
     out_.inputs.sources.insert_or_assign(source.id, *std::move(state));
     return Done{};
   }
@@ -98,7 +102,7 @@ class EditReader {
             file, read->exchanged, "a .bones.toml file next to the motion")) {
       return swapped->error();
     }
-    if (place == 0) {
+    if (place == 0 && is_gltf(file)) {
       if (auto body = open_avatar(BodyFile(file))) out_.look = std::move(body->look);
     }
     auto state =
@@ -112,9 +116,9 @@ class EditReader {
   /// Returns the uncertainty that an .npz holds for all joints; empty: none.
   static std::vector<std::vector<JointUncertainty>> uncertainty_of(const fs::path& file) {
     if (kind_by_extension(file) != ".npz") return {};
-    auto npz = recordings::read_npz(file);
-    if (!npz) return {};
-    return std::move(npz->uncertainty);
+    auto uncertainty = recordings::read_npz_uncertainty(file);
+    if (!uncertainty) return {};
+    return *std::move(uncertainty);
   }
 
   Result<edit::EditState> render_source(const fs::path& file, int place) {
@@ -141,7 +145,7 @@ class EditReader {
     if (!files) return files.error();
     edit::RenderOptions render;
     render.recipe_file = file.string();
-    auto rendered = edit::render(*recipe, files->inputs, render);
+    auto rendered = edit::render(*recipe, std::move(files->inputs), render);
     if (!rendered) return rendered.error();
     if (rendered->outputs.size() != 1) {
       return bad_input(file.string(),

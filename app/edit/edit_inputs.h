@@ -24,6 +24,8 @@ struct EditFiles {
   std::vector<std::string>
       sha256;  ///< SHA-256 of each source's file, in the recipe's order.
   std::map<std::string, std::string> avatar_sha256;
+  /// Peak acceleration of a joint in the first source. [m/s^2]
+  double source_peak_m_per_s2 = 0.0;
   BodyLook look;  ///< Look of the first source's body: with its mesh, if it has one.
   std::vector<std::string> remarks;  ///< Assumptions of the readers, with the file.
 };

@@ -10,13 +10,12 @@
 #include "edit/state/measure_constraints.h"
 #include "edit/state/plant_feet.h"
 #include "edit/state/resolve_moment.h"
-#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/edit/edit_json.h"
+#include "app/edit/peak_acceleration.h"
 #include "app/motion/marey_skeleton.h"
 #include "core/base/format_text.h"
-#include "core/pose.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/body/constraints_file.h"
 #include "recordings/body/mannequin.h"
@@ -29,26 +28,6 @@ namespace marey::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Returns the largest acceleration of a joint with a bone. [m/s^2]
-double peak_acceleration(const Motion& motion) {
-  const std::size_t joints = motion.skeleton.joints.size();
-  std::array<std::vector<RigidTransform>, 3> world;
-  for (auto& frame : world) frame.resize(joints);
-  double peak = 0.0;
-  for (std::size_t t = 0; t < motion.poses.size(); ++t) {
-    world_from_joints(motion.skeleton, motion.poses[t], world[t % 3]);
-    if (t < 2) continue;
-    for (std::size_t j = 0; j < joints; ++j) {
-      if (!motion.skeleton.joints[j].bone) continue;
-      const glm::dvec3 change = world[t % 3][j].translation -
-                                2.0 * world[(t - 1) % 3][j].translation +
-                                world[(t - 2) % 3][j].translation;
-      peak = std::max(peak, glm::length(change));
-    }
-  }
-  return peak * motion.rate.hz * motion.rate.hz;
-}
 
 double largest_figure(const edit::Rendered& rendered, const std::string& name) {
   double largest = 0.0;
@@ -212,8 +191,7 @@ std::vector<std::string> edit_names(const EditRecipe& recipe, std::size_t output
 std::vector<EditFigures> measure_edit(const EditRecipe& recipe,
                                       const EditFiles& files,
                                       const edit::Rendered& rendered) {
-  const edit::EditState& source = files.inputs.sources.at(recipe.sources.front().id);
-  const double source_peak = peak_acceleration(source.motion);
+  const double source_peak = files.source_peak_m_per_s2;
   const auto names = edit_names(recipe, rendered.outputs.size());
   std::vector<EditFigures> out;
   for (std::size_t i = 0; i < rendered.outputs.size(); ++i) {
@@ -227,7 +205,7 @@ std::vector<EditFigures> measure_edit(const EditRecipe& recipe,
     figures.slide_cm_per_s = slide.mean_cm_per_s;
     figures.displaced_mm = largest_figure(rendered, "displaced_mm");
     if (source_peak > 0.0) {
-      figures.acceleration_ratio = peak_acceleration(state.motion) / source_peak;
+      figures.acceleration_ratio = peak_acceleration_m_per_s2(state.motion) / source_peak;
     }
     figures.constraint_mm = 1e3 * edit::worst_constraint_m(state);
     for (const edit::FrameLineage& frame : state.lineage.frames) {

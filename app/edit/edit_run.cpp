@@ -45,8 +45,8 @@ Result<EditRun> render_recipe(const fs::path& file,
   edit::RenderOptions render;
   render.recipe_file = file.string();
   render.until = options.until;
-  auto rendered =
-      edit::render(run.recipe, run.files.inputs, render, console.stage("edit"));
+  auto rendered = edit::render(
+      run.recipe, std::move(run.files.inputs), render, console.stage("edit"));
   if (!rendered) return rendered.error();
   run.rendered = *std::move(rendered);
   return run;

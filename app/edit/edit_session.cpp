@@ -80,6 +80,19 @@ ReadEditOptions read_options(const EditSessionOptions& options) {
           options.accept_new_sources};
 }
 
+bool is_new_recipe(const EditSessionOptions& options) {
+  std::error_code failed;
+  return !fs::exists(options.recipe_file, failed) && !options.source.empty();
+}
+
+Result<EditRecipe> recipe_of(const EditSessionOptions& options) {
+  auto recipe = is_new_recipe(options)
+                    ? Result<EditRecipe>(new_recipe(options))
+                    : recordings::read_edit_recipe(options.recipe_file);
+  if (recipe && recipe->name.empty()) recipe->name = recipe_stem(options.recipe_file);
+  return recipe;
+}
+
 }  // namespace
 
 fs::path journal_of(const fs::path& recipe_file) {
@@ -95,12 +108,8 @@ struct EditSession::Opened {
 
 Result<std::unique_ptr<EditSession>> EditSession::open(const EditSessionOptions& options,
                                                        EditListener& listener) {
-  std::error_code failed;
-  const bool is_new = !fs::exists(options.recipe_file, failed) && !options.source.empty();
-  auto recipe = is_new ? Result<EditRecipe>(new_recipe(options))
-                       : recordings::read_edit_recipe(options.recipe_file);
+  auto recipe = recipe_of(options);
   if (!recipe) return recipe.error();
-  if (recipe->name.empty()) recipe->name = recipe_stem(options.recipe_file);
   if (edits_markers(*recipe, read_options(options))) {
     return bad_input(recipe->sources.front().path,
                      "labelled markers cannot be edited on the page",
@@ -111,6 +120,15 @@ Result<std::unique_ptr<EditSession>> EditSession::open(const EditSessionOptions&
   if (!files) return files.error();
   auto journal = EditJournal::open(journal_of(options.recipe_file));
   if (!journal) return journal.error();
+  // Another session may have ended since, whose last change is in the recipe.
+  auto locked = recipe_of(options);
+  if (!locked) return locked.error();
+  if (recordings::edit_recipe_text(*locked) != recordings::edit_recipe_text(*recipe)) {
+    recipe = std::move(locked);
+    files = read_edit_files(*recipe, read_options(options));
+    if (!files) return files.error();
+  }
+  const bool is_new = is_new_recipe(options);
   const bool sums = record_sums(*files, options.accept_new_sources, *recipe);
   const std::string text = recordings::edit_recipe_text(*recipe);
   if (journal->is_empty() || journal->newest_text() != text) {

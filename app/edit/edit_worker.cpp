@@ -195,6 +195,9 @@ void EditWorker::do_task(const LoopsTask& task) {
         task.asker, bad_input("the edit", "it has no such result", "choose another"));
   }
   const edit::EditState& state = result->outputs[static_cast<std::size_t>(task.output)];
+  if (const Status ok = edit::check_loop_search(state, task.options); !ok) {
+    return listener_.on_failed(task.asker, ok.error());
+  }
   EditLoops out;
   out.revision = task.revision;
   out.until = task.until;

@@ -104,8 +104,12 @@ ChannelFilter::ChannelFilter(const FilterOp& op,
   if (!impacts.empty()) {
     constexpr double kBlend_s = 0.025;
     raw_share_.assign(count, 0.0);
+    // Zero further away.
+    const auto reach = static_cast<std::size_t>(std::ceil(kBlend_s * rate_hz));
     for (const int impact : impacts) {
-      for (std::size_t t = 0; t < count; ++t) {
+      const auto at = static_cast<std::size_t>(impact);
+      const std::size_t end = std::min(count, at + reach + 1);
+      for (std::size_t t = at - std::min(at, reach); t < end; ++t) {
         const double away_s = std::abs(static_cast<double>(t) - impact) / rate_hz;
         raw_share_[t] =
             std::max(raw_share_[t], 1.0 - retarget::smooth_step(away_s / kBlend_s));

@@ -5,16 +5,14 @@
 #include <optional>
 #include <vector>
 
-#include "edit/find/foot_period.h"
+#include "edit/find/loop_pairs.h"
 #include "edit/find/planar_match.h"
 #include "edit/state/edit_state.h"
 
 #include "core/base/frame_range.h"
+#include "core/base/result.h"
 
 namespace marey::edit {
-
-/// Contacts of the feet at the start and the end of a cycle.
-enum class LoopEdge { kLeftStrike, kRightStrike, kNone };
 
 /// A pair of frames between which a motion is nearly a cycle.
 struct LoopCandidate {
@@ -45,22 +43,22 @@ struct FindLoopsOptions {
   double strike_preference = 1.0;
 };
 
-/// The range of cycle lengths that find_loops() searches.
-struct LoopPeriods {
-  int min_frames = 0;
-  int max_frames = 0;
-  std::optional<FootPeriod> feet;  ///< If the options do not give both limits.
-};
 /// nullopt: the options give no limits and the feet have no period; or the motion is too
 /// short for the shortest cycle.
 [[nodiscard]] std::optional<LoopPeriods> loop_periods(const EditState& state,
                                                       const FindLoopsOptions& options);
 
+/// Returns an error if find_loops() would compare more than 2000 million pairs, a few
+/// minutes of work. Errors (bad input): that.
+[[nodiscard]] Status check_loop_search(const EditState& state,
+                                       const FindLoopsOptions& options);
+
 /// Finds pairs of frames that repeat each other, best first. All pairs in the range of
 /// periods are compared by five joints, positions and velocities over five frames
 /// (edit/find/loop_cost.h); the best local minima are compared again by all joints and
 /// sorted by PlanarMatch::distance_m. Both frames have the same feet on the floor.
-/// Empty if loop_periods() is nullopt. Cost: frames times the range in frames.
+/// Empty if loop_periods() is nullopt. Time: frames times the range in frames; memory:
+/// linear in frames.
 [[nodiscard]] std::vector<LoopCandidate> find_loops(const EditState& state,
                                                     const FindLoopsOptions& options = {});
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -33,13 +34,15 @@ void insert_note(Annotation note, Annotations& annotations) {
 /// Returns the value at a frame. Precondition: keys ascend by frame and are not empty.
 double value_at(const std::vector<std::pair<double, double>>& keys, double frame) {
   if (frame <= keys.front().first) return keys.front().second;
-  for (std::size_t i = 1; i < keys.size(); ++i) {
-    if (frame > keys[i].first) continue;
-    const double share =
-        (frame - keys[i - 1].first) / (keys[i].first - keys[i - 1].first);
-    return glm::mix(keys[i - 1].second, keys[i].second, share);
-  }
-  return keys.back().second;
+  const auto after = std::lower_bound(
+      keys.begin(),
+      keys.end(),
+      frame,
+      [](const std::pair<double, double>& key, double at) { return key.first < at; });
+  if (after == keys.end()) return keys.back().second;
+  const auto before = std::prev(after);
+  const double share = (frame - before->first) / (after->first - before->first);
+  return glm::mix(before->second, after->second, share);
 }
 
 Result<std::vector<std::pair<double, double>>> curve_keys(const CurveOp& op,
@@ -114,32 +117,29 @@ Status add_curve(const CurveOp& op,
 
 Result<EditState> apply_tag(const TagOp& op,
                             const OpContext& context,
-                            const EditState& state,
+                            EditState state,
                             OpReport& /*report*/) {
-  EditState out = state;
-  const Status ok = add_tag(op, context.op, timeline_of(state), out.annotations);
+  const Status ok = add_tag(op, context.op, timeline_of(state), state.annotations);
   if (!ok) return ok.error();
-  return out;
+  return state;
 }
 
 Result<EditState> apply_event(const EventOp& op,
                               const OpContext& context,
-                              const EditState& state,
+                              EditState state,
                               OpReport& /*report*/) {
-  EditState out = state;
-  const Status ok = add_event(op, context.op, timeline_of(state), out.annotations);
+  const Status ok = add_event(op, context.op, timeline_of(state), state.annotations);
   if (!ok) return ok.error();
-  return out;
+  return state;
 }
 
 Result<EditState> apply_curve(const CurveOp& op,
                               const OpContext& context,
-                              const EditState& state,
+                              EditState state,
                               OpReport& /*report*/) {
-  EditState out = state;
-  const Status ok = add_curve(op, context.op, timeline_of(state), out.annotations);
+  const Status ok = add_curve(op, context.op, timeline_of(state), state.annotations);
   if (!ok) return ok.error();
-  return out;
+  return state;
 }
 
 }  // namespace marey::edit

@@ -17,13 +17,13 @@ namespace marey::edit {
 /// Adds a text over the span. Errors: resolve_span()'s.
 [[nodiscard]] Result<EditState> apply_tag(const TagOp& op,
                                           const OpContext& context,
-                                          const EditState& state,
+                                          EditState state,
                                           OpReport& report);
 
 /// Adds a text at an instant. Errors: resolve_moment()'s; a span is given.
 [[nodiscard]] Result<EditState> apply_event(const EventOp& op,
                                             const OpContext& context,
-                                            const EditState& state,
+                                            EditState state,
                                             OpReport& report);
 
 /// Adds a number per frame: linear between keys, constant before the first and after the
@@ -31,7 +31,7 @@ namespace marey::edit {
 /// or are not finite; resolve_moment()'s; a span is given.
 [[nodiscard]] Result<EditState> apply_curve(const CurveOp& op,
                                             const OpContext& context,
-                                            const EditState& state,
+                                            EditState state,
                                             OpReport& report);
 
 /// The same on the annotations alone. `common` has the span and the keys of all

@@ -31,7 +31,8 @@ constexpr double kMaxGap_legs = 0.15;
 /// A joint this far off is worth a warning: a hand may be on the other side of the body.
 constexpr double kMaxJointGap_legs = 0.35;
 constexpr double kNearlyAsGood = 1.1;
-constexpr int kMaxCycles = 1000;
+constexpr int kMaxCycles = 10000;
+constexpr double kMaxCycleFrames = 5e6;
 constexpr double kCycleDegrees = 57.295779513082320877;
 
 Error bad_cyclify(std::string cause, std::string next) {
@@ -152,6 +153,7 @@ Result<ChosenCycle> best_cycle(const CyclifyOp& op,
       return bad_cyclify("the span has less than 3 frames", "choose a longer span");
     }
   }
+  if (const Status ok = check_loop_search(state, options); !ok) return ok.error();
   const std::vector<LoopCandidate> loops = find_loops(state, options);
   if (loops.empty()) return no_cycle(state, options);
   return chosen(state, op, best_with_room(loops, state));
@@ -341,6 +343,12 @@ Result<EditState> apply_cyclify(const CyclifyOp& op,
   if (!chosen) return chosen.error();
   const Status gap = check_gap(op, state, chosen->loop);
   if (!gap) return gap.error();
+  if (op.cycles * static_cast<double>(cycle_frames(chosen->spec)) > kMaxCycleFrames) {
+    return bad_cyclify(std::to_string(op.cycles) + " cycles of " +
+                           std::to_string(cycle_frames(chosen->spec)) +
+                           " frames are more than 5 million frames",
+                       "give a smaller number of cycles");
+  }
   ClosedCycle closed = close_cycle(state, chosen->spec);
   EditState out = std::move(closed.cycle);
   const FrameRange all{0, out.frame_count() - 1};

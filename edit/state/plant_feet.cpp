@@ -19,7 +19,9 @@
 #include "retarget/body/normalized_skeleton.h"
 #include "retarget/contacts/frame_marks.h"
 #include "retarget/feet/adapt_to_ground.h"
+#include "retarget/feet/ground_legs.h"
 #include "retarget/feet/leg_placement.h"
+#include "retarget/feet/plan_foot_path.h"
 
 namespace marey::edit {
 namespace {
@@ -32,25 +34,39 @@ constexpr double kUnmoved_m = 1e-9;
 // The same for the rotation of feet and toes: 1 minus the dot product of quaternions.
 constexpr double kUnturned = 1e-15;
 
-/// The motion in normalized postures and as frames of its feet.
-struct PlantFrames {
-  std::vector<NormalizedPose> poses;
-  std::array<std::vector<FootPlace>, 2> feet;
+/// Normalizes one frame of a motion at a time: a normalized posture takes four times the
+/// memory of a pose.
+class PosturesOf {
+ public:
+  explicit PosturesOf(const EditState& state)
+      : state_(state), joints_(state.motion.skeleton.joints.size()) {}
+
+  /// Returns the posture of a frame as its pose is now.
+  NormalizedPose& at(std::size_t frame) {
+    world_from_joints(state_.motion.skeleton, state_.motion.poses[frame], joints_);
+    retarget::normalize(state_.map, joints_, pose_, retarget::RootNormalization::kNone);
+    return pose_;
+  }
+  /// Returns a foot of the frame of the last at().
+  [[nodiscard]] FootPlace foot(int side) const {
+    return retarget::foot_of(state_.map, pose_, joints_, side);
+  }
+
+ private:
+  const EditState& state_;
+  std::vector<RigidTransform> joints_;
+  NormalizedPose pose_;
 };
 
-PlantFrames plant_frames(const EditState& state) {
-  PlantFrames out;
-  const Skeleton& skeleton = state.motion.skeleton;
-  std::vector<RigidTransform> joints(skeleton.joints.size());
-  out.poses.resize(state.motion.poses.size());
-  for (std::size_t t = 0; t < out.poses.size(); ++t) {
-    world_from_joints(skeleton, state.motion.poses[t], joints);
-    retarget::normalize(
-        state.map, joints, out.poses[t], retarget::RootNormalization::kNone);
-    for (int side = 0; side < 2; ++side) {
-      out.feet[static_cast<std::size_t>(side)].push_back(
-          retarget::foot_of(state.map, out.poses[t], joints, side));
-    }
+/// Returns the legs of all frames, the roots raised by `rise_m`.
+retarget::GroundLegs ground_legs(const EditState& state, double rise_m) {
+  retarget::GroundLegs out;
+  PosturesOf postures(state);
+  std::vector<RigidTransform> joints(state.motion.skeleton.joints.size());
+  for (std::size_t t = 0; t < state.motion.poses.size(); ++t) {
+    NormalizedPose& pose = postures.at(t);
+    pose.root.y += rise_m;
+    retarget::add_legs(state.motion.skeleton, state.map, pose, joints, out);
   }
   return out;
 }
@@ -81,49 +97,65 @@ std::vector<std::size_t> leg_joints(const EditState& state) {
 // A bearing foot that is further from its place does not reach it. [m]
 constexpr double kReached_m = 5e-4;
 
-/// Takes legs and root from the settled postures, and everything else from the motion.
-/// Returns the number of frames in which a bearing foot does not reach its place.
-int take_legs(const std::vector<NormalizedPose>& settled,
-              const PlantFrames& before,
-              const std::array<std::vector<FootPlace>, 2>& feet,
-              EditState& state) {
-  const Skeleton& skeleton = state.motion.skeleton;
-  const std::vector<std::size_t> legs = leg_joints(state);
-  std::vector<RigidTransform> joints(skeleton.joints.size());
-  Pose expanded;
-  int missed = 0;
-  std::array<std::vector<char>, 2> bears;
-  for (std::size_t side = 0; side < 2; ++side) {
-    bears[side] = retarget::frame_marks(state.contacts.feet[side].stance, settled.size());
+/// Settles each posture on its feet, and takes legs and root from it.
+class LegTaker {
+ public:
+  LegTaker(const retarget::GroundLegs& ground, EditState& state)
+      : ground_(ground),
+        state_(state),
+        legs_(leg_joints(state)),
+        postures_(state),
+        joints_(state.motion.skeleton.joints.size()) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      bears_[side] =
+          retarget::frame_marks(state.contacts.feet[side].stance, ground.frame_count());
+    }
   }
-  for (std::size_t t = 0; t < settled.size(); ++t) {
-    const glm::dvec3 sunk = settled[t].root - before.poses[t].root;
-    if (glm::length(sunk) < kUnmoved_m && is_same_place(before.feet[0][t], feet[0][t]) &&
-        is_same_place(before.feet[1][t], feet[1][t])) {
-      continue;
+
+  /// Returns false if a bearing foot does not reach its place.
+  bool take(std::size_t t, double sink_m) {
+    NormalizedPose& settled = postures_.at(t);
+    const glm::dvec3 root = settled.root;
+    bool is_same = true;
+    for (int side = 0; side < 2; ++side) {
+      is_same = is_same && is_same_place(postures_.foot(side), planned(t, side));
     }
-    retarget::expand(settled[t], skeleton, state.map, joints, expanded);
-    Pose& pose = state.motion.poses[t];
+    (void)retarget::settle_pose(state_.map, ground_, t, sink_m, settled);
+    const glm::dvec3 sunk = settled.root - root;
+    if (is_same && glm::length(sunk) < kUnmoved_m) return true;
+    const Skeleton& skeleton = state_.motion.skeleton;
+    retarget::expand(settled, skeleton, state_.map, joints_, expanded_);
+    Pose& pose = state_.motion.poses[t];
     pose.root_in_world += sunk;
-    for (const std::size_t joint : legs) {
-      pose.parent_from_joint[joint] = expanded.parent_from_joint[joint];
+    for (const std::size_t joint : legs_) {
+      pose.parent_from_joint[joint] = expanded_.parent_from_joint[joint];
     }
-    world_from_joints(skeleton, pose, joints);
+    world_from_joints(skeleton, pose, joints_);
     bool is_missed = false;
     for (int side = 0; side < 2; ++side) {
       // Joints without a bone between hips and thigh are at rest in settled postures.
-      const auto s = static_cast<std::size_t>(side);
-      const glm::dvec3& ankle = joints[index(state.map.leg(side).end)].translation;
-      double off_m = glm::distance(ankle, feet[s][t].ankle_in_world);
-      if (off_m > kUnmoved_m) {
-        off_m = reach_foot(skeleton, state.map, side, feet[s][t], pose);
-      }
-      is_missed |= off_m > kReached_m && bears[s][t] != 0;
+      const FootPlace& foot = planned(t, side);
+      const glm::dvec3& ankle = joints_[index(state_.map.leg(side).end)].translation;
+      double off_m = glm::distance(ankle, foot.ankle_in_world);
+      if (off_m > kUnmoved_m) off_m = reach_foot(skeleton, state_.map, side, foot, pose);
+      is_missed |= off_m > kReached_m && bears_[static_cast<std::size_t>(side)][t] != 0;
     }
-    if (is_missed) ++missed;
+    return !is_missed;
   }
-  return missed;
-}
+
+ private:
+  [[nodiscard]] const FootPlace& planned(std::size_t t, int side) const {
+    return ground_.legs[static_cast<std::size_t>(side)].foot[t];
+  }
+
+  const retarget::GroundLegs& ground_;
+  EditState& state_;
+  std::vector<std::size_t> legs_;
+  std::array<std::vector<char>, 2> bears_;
+  PosturesOf postures_;
+  std::vector<RigidTransform> joints_;
+  Pose expanded_;
+};
 
 // Extension of a swinging leg up to which it is free, the one that it approaches beyond,
 // and the time after a stance in which this sets in. [share of the leg's length, s]
@@ -153,24 +185,26 @@ std::vector<double> frames_from_stance(const std::vector<char>& stands) {
   return out;
 }
 
-// Draws moved swinging feet nearer to the hips of the settled postures.
-void soften_swings(const std::vector<NormalizedPose>& settled,
-                   const PlantFrames& before,
+// Draws moved swinging feet nearer to the hips, which sink by `sink_m` in each frame.
+void soften_swings(std::span<const double> sink_m,
                    const EditState& state,
                    std::array<std::vector<FootPlace>, 2>& feet) {
+  PosturesOf postures(state);
   std::vector<RigidTransform> joints(state.motion.skeleton.joints.size());
   const double ramp = kSoftRamp_s * state.motion.rate.hz;
   for (std::size_t side = 0; side < 2; ++side) {
     const retarget::LimbMap& leg = state.map.leg(static_cast<int>(side));
     const auto away = frames_from_stance(
-        retarget::frame_marks(state.contacts.feet[side].stance, settled.size()));
-    for (std::size_t t = 0; t < settled.size(); ++t) {
+        retarget::frame_marks(state.contacts.feet[side].stance, sink_m.size()));
+    for (std::size_t t = 0; t < sink_m.size(); ++t) {
+      if (away[t] == 0.0) continue;
       FootPlace& place = feet[side][t];
-      if (away[t] == 0.0 || is_same_place(before.feet[side][t], place)) continue;
+      (void)postures.at(t);
+      if (is_same_place(postures.foot(static_cast<int>(side)), place)) continue;
       world_from_joints(state.motion.skeleton, state.motion.poses[t], joints);
       const glm::dvec3 hip = joints[index(leg.upper)].translation;
       const glm::dvec3 ankle = joints[index(leg.end)].translation;
-      const glm::dvec3 settled_hip = hip + settled[t].root - before.poses[t].root;
+      const glm::dvec3 settled_hip = hip - glm::dvec3(0.0, sink_m[t], 0.0);
       const glm::dvec3 reach = place.ankle_in_world - settled_hip;
       const double planned = glm::length(reach) / leg.length_m();
       if (planned <= kFreeExtension) continue;
@@ -182,37 +216,49 @@ void soften_swings(const std::vector<NormalizedPose>& settled,
   }
 }
 
-double largest_move_m(const PlantFrames& before,
+double largest_move_m(const EditState& state,
                       const std::array<std::vector<FootPlace>, 2>& feet) {
   double largest = 0.0;
-  for (std::size_t side = 0; side < 2; ++side) {
-    for (std::size_t t = 0; t < feet[side].size(); ++t) {
-      largest = std::max(largest, moved_m(before.feet[side][t], feet[side][t]));
+  PosturesOf postures(state);
+  for (std::size_t t = 0; t < state.motion.poses.size(); ++t) {
+    (void)postures.at(t);
+    for (int side = 0; side < 2; ++side) {
+      const auto s = static_cast<std::size_t>(side);
+      largest = std::max(largest, moved_m(postures.foot(side), feet[s][t]));
     }
   }
   return largest;
 }
 
-void raise(std::vector<NormalizedPose>& poses, double height_m) {
-  for (NormalizedPose& pose : poses) pose.root.y += height_m;
-}
-
-void settle(const PlantFrames& before,
-            std::array<std::vector<FootPlace>, 2> feet,
+void settle(std::array<std::vector<FootPlace>, 2> feet,
             const SetFeetOptions& options,
             EditState& state,
             PlantReport& report) {
-  std::vector<NormalizedPose> settled = before.poses;
-  report.largest_moved_m = largest_move_m(before, feet);
-  (void)retarget::settle_on_feet(state.motion.skeleton,
-                                 state.map,
-                                 state.contacts,
-                                 state.motion.rate,
-                                 settled,
-                                 feet,
-                                 options.ground);
-  if (options.soft_swings) soften_swings(settled, before, state, feet);
-  report.unreachable_frames = take_legs(settled, before, feet, state);
+  report.largest_moved_m = largest_move_m(state, feet);
+  retarget::GroundLegs legs = ground_legs(state, 0.0);
+  for (std::size_t side = 0; side < 2; ++side) {
+    MAREY_ASSERT(feet[side].size() == legs.frame_count());
+    legs.legs[side].foot = std::move(feet[side]);
+  }
+  if (legs.frame_count() == 0) return;
+  const std::vector<double> sink = retarget::root_sinks_m(state.map,
+                                                          state.contacts,
+                                                          state.motion.rate,
+                                                          legs,
+                                                          options.ground.anticipation_s,
+                                                          options.ground.straight);
+  if (options.soft_swings) {
+    std::array<std::vector<FootPlace>, 2> soft{std::move(legs.legs[0].foot),
+                                               std::move(legs.legs[1].foot)};
+    soften_swings(sink, state, soft);
+    for (std::size_t side = 0; side < 2; ++side) {
+      legs.legs[side].foot = std::move(soft[side]);
+    }
+  }
+  LegTaker taker(legs, state);
+  for (std::size_t t = 0; t < sink.size(); ++t) {
+    if (!taker.take(t, sink[t])) ++report.unreachable_frames;
+  }
 }
 
 }  // namespace
@@ -222,17 +268,21 @@ PlantReport plant_feet(EditState& state) {
   const auto& contacts = state.contacts.feet;
   if (contacts[0].stance.empty() && contacts[1].stance.empty()) return report;
   report.slide_before_mm = measure_slide(state).worst_drift_mm;
-  const PlantFrames before = plant_frames(state);
   const double rise_m =
       retarget::standing_rise_m(state.map, state.contacts, state.map, 1.0);
-  std::vector<NormalizedPose> level = before.poses;
-  raise(level, rise_m);
-  auto feet = retarget::plan_level_feet(
-      state.motion.skeleton, state.map, state.contacts, state.motion.rate, level, {});
-  for (auto& path : feet) {
-    for (FootPlace& place : path) place.ankle_in_world.y -= rise_m;
+  std::array<std::vector<FootPlace>, 2> feet;
+  {
+    const retarget::GroundLegs level = ground_legs(state, rise_m);
+    for (std::size_t side = 0; side < 2; ++side) {
+      feet[side] = retarget::plan_foot_path(level.legs[side].foot,
+                                            contacts[side],
+                                            state.map.feet[side],
+                                            state.map.leg_length_m,
+                                            state.motion.rate);
+      for (FootPlace& place : feet[side]) place.ankle_in_world.y -= rise_m;
+    }
   }
-  settle(before, std::move(feet), {}, state, report);
+  settle(std::move(feet), {}, state, report);
   report.slide_after_mm = measure_slide(state).worst_drift_mm;
   return report;
 }
@@ -242,21 +292,31 @@ PlantReport set_feet(EditState& state,
                      const SetFeetOptions& options) {
   PlantReport report;
   report.slide_before_mm = measure_slide(state).worst_drift_mm;
-  const PlantFrames before = plant_frames(state);
-  std::array<std::vector<FootPlace>, 2> planned = before.feet;
-  for (std::size_t side = 0; side < 2; ++side) {
-    MAREY_ASSERT(feet[side].size() == planned[side].size());
-    for (std::size_t t = 0; t < planned[side].size(); ++t) {
-      if (feet[side][t]) planned[side][t] = *feet[side][t];
+  const std::size_t count = state.motion.poses.size();
+  MAREY_ASSERT(feet[0].size() == count && feet[1].size() == count);
+  std::array<std::vector<FootPlace>, 2> planned;
+  PosturesOf postures(state);
+  for (std::size_t t = 0; t < count; ++t) {
+    (void)postures.at(t);
+    for (int side = 0; side < 2; ++side) {
+      const auto s = static_cast<std::size_t>(side);
+      planned[s].push_back(feet[s][t] ? *feet[s][t] : postures.foot(side));
     }
   }
-  settle(before, std::move(planned), options, state, report);
+  settle(std::move(planned), options, state, report);
   report.slide_after_mm = measure_slide(state).worst_drift_mm;
   return report;
 }
 
 std::vector<FootPlace> foot_places(const EditState& state, int side) {
-  return plant_frames(state).feet[static_cast<std::size_t>(side)];
+  std::vector<FootPlace> out;
+  out.reserve(state.motion.poses.size());
+  PosturesOf postures(state);
+  for (std::size_t t = 0; t < state.motion.poses.size(); ++t) {
+    (void)postures.at(t);
+    out.push_back(postures.foot(side));
+  }
+  return out;
 }
 
 SlideFigures measure_slide(const EditState& state) {

@@ -3,6 +3,8 @@
 #include "recordings/base/line_journal.h"
 
 #include <cerrno>
+#include <fstream>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -41,6 +43,40 @@ int write_all(int fd, std::string_view bytes, std::int64_t offset) {
     offset += written;
   }
   return 0;
+}
+
+/// Returns true if a process has the file open. False if the system does not tell.
+bool has_open(const std::string& process, const fs::path& file) {
+  std::error_code failed;
+  for (auto it = fs::directory_iterator("/proc/" + process + "/fd", failed);
+       !failed && it != fs::directory_iterator();
+       it.increment(failed)) {
+    std::error_code other;
+    if (fs::equivalent(it->path(), file, other)) return true;
+  }
+  return false;
+}
+
+/// Returns " (process 123)" for the process that holds the lock of a file; empty if the
+/// system does not tell.
+std::string lock_holder(const fs::path& file, ino_t inode) {
+  std::ifstream locks("/proc/locks");
+  const std::string end = ":" + std::to_string(inode);
+  for (std::string line; std::getline(locks, line);) {
+    // 1: FLOCK  ADVISORY  WRITE 123 08:01:456 0 EOF
+    std::istringstream words(line);
+    std::string number;
+    std::string kind;
+    std::string mode;
+    std::string access;
+    std::string process;
+    std::string locked;
+    words >> number >> kind >> mode >> access >> process >> locked;
+    if (kind == "FLOCK" && locked.ends_with(end) && has_open(process, file)) {
+      return " (process " + process + ")";
+    }
+  }
+  return {};
 }
 
 /// Stores a new file's name in its folder.
@@ -83,8 +119,9 @@ Result<LineJournal> LineJournal::open(const fs::path& path) {
   }
   // A file system without locks gives another error: then there is no protection.
   if (::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    return bad_input(
-        path.string(), "is open in another marey", "end that one, or use its page");
+    return bad_input(path.string(),
+                     "is open in another marey" + lock_holder(path, stat.st_ino),
+                     "end that one, or use its page");
   }
   if (::fstat(fd, &stat) != 0) return journal_disk_error(path, "cannot be read", errno);
   if (stat.st_size > kMaxJournalBytes) {

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recordings/base/zip_archive.h"
 
+#include <cstdint>
+#include <system_error>
+
 #include <zip.h>
 
 #include "core/base/assert.h"
@@ -71,6 +74,16 @@ std::optional<ZipReader> ZipReader::open(std::string_view archive) {
   }
   zip_source_free(source);
   return std::nullopt;
+}
+
+std::optional<ZipReader> ZipReader::open_file(const std::filesystem::path& path) {
+  std::error_code failed;
+  const std::uintmax_t size = std::filesystem::file_size(path, failed);
+  if (failed) return std::nullopt;
+  int problem = 0;
+  zip_t* opened = zip_open(path.c_str(), ZIP_RDONLY, &problem);
+  if (opened == nullptr) return std::nullopt;
+  return ZipReader(opened, static_cast<std::size_t>(size));
 }
 
 bool ZipReader::contains(const std::string& name) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,12 +34,16 @@ class ZipWriter {
 
 enum class ZipProblem { kAbsent, kCompressed, kWrongChecksum, kDamaged };
 
-/// Reads a ZIP archive in memory. Borrows its bytes.
+/// Reads a ZIP archive in memory, whose bytes it borrows, or in a file.
 class ZipReader {
  public:
   /// Returns nullopt if the bytes are no archive. Memory: some hundred bytes for each
   /// entry of its directory.
   [[nodiscard]] static std::optional<ZipReader> open(std::string_view archive);
+
+  /// Opens an archive in a file, of which read() takes what it needs.
+  [[nodiscard]] static std::optional<ZipReader> open_file(
+      const std::filesystem::path& path);
 
   [[nodiscard]] bool contains(const std::string& name) const;
   /// Returns true if the name of a file ends with `ending`.

@@ -86,7 +86,13 @@ struct NpzMotion {
 [[nodiscard]] Result<NpzMotion> parse_npz(std::string_view bytes,
                                           const std::string& file);
 
-/// Applies parse_npz() to the file at `path`.
+/// Reads the file at `path` as parse_npz() does, array by array: memory for one of them
+/// and the motion.
 [[nodiscard]] Result<NpzMotion> read_npz(const std::filesystem::path& path);
+
+/// Returns the uncertainty alone, [frame][joint]; empty: not in the file. Errors: those
+/// of parse_npz().
+[[nodiscard]] Result<std::vector<std::vector<JointUncertainty>>> read_npz_uncertainty(
+    const std::filesystem::path& path);
 
 }  // namespace marey::recordings

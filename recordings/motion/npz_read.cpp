@@ -1,15 +1,18 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
+#include <cerrno>
 #include <cmath>
+#include <fstream>
 #include <map>
+#include <system_error>
 #include <utility>
 #include <variant>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "core/base/input_file.h"
 #include "core/humanoid.h"
-#include "recordings/base/atomic_file.h"
 #include "recordings/base/motion_limits.h"
 #include "recordings/base/zip_archive.h"
 #include "recordings/motion/npy_array.h"
@@ -20,10 +23,10 @@ namespace {
 
 class Reader {
  public:
-  explicit Reader(const std::string& file) : file_(file) {}
+  explicit Reader(std::string file) : file_(std::move(file)) {}
 
-  Result<NpzMotion> read(std::string_view bytes) {
-    if (Status ok = open(bytes); !ok) return ok.error();
+  Result<NpzMotion> read(std::optional<ZipReader> zip) {
+    if (Status ok = open(std::move(zip)); !ok) return ok.error();
     for (const auto step : {&Reader::head,
                             &Reader::skeleton,
                             &Reader::poses,
@@ -32,6 +35,21 @@ class Reader {
       if (Status ok = (this->*step)(); !ok) return ok.error();
     }
     return std::move(out_);
+  }
+
+  /// Reads the uncertainty alone.
+  Result<std::vector<std::vector<JointUncertainty>>> read_uncertainty(
+      std::optional<ZipReader> zip) {
+    if (Status ok = open(std::move(zip)); !ok) return ok.error();
+    if (Status ok = head(); !ok) return ok.error();
+    const auto joints = length("joint_names");
+    if (!joints) return joints.error();
+    const auto frames = length("time_s");
+    if (!frames) return frames.error();
+    joints_ = *joints;
+    frames_ = *frames;
+    if (Status ok = uncertainty(); !ok) return ok.error();
+    return std::move(out_.uncertainty);
   }
 
  private:
@@ -46,8 +64,8 @@ class Reader {
     return error;
   }
 
-  Status open(std::string_view bytes) {
-    zip_ = ZipReader::open(bytes);
+  Status open(std::optional<ZipReader> zip) {
+    zip_ = std::move(zip);
     if (!zip_) return fail("it is not a .npz archive, or it is damaged");
     if (!zip_->contains_ending(".npy")) {
       return fail("it is not a .npz archive: it holds no array");
@@ -107,17 +125,31 @@ class Reader {
     return found->at<T>(0);
   }
 
-  Result<std::vector<double>> reals(std::string_view name, const NpyShape& shape) {
-    const auto found = array(name, "<f8", shape);
+  /// Returns an array of checked numbers; its bytes stay until drop().
+  Result<NpyArray> real_array(std::string_view name, const NpyShape& shape) {
+    auto found = array(name, "<f8", shape);
     if (!found) return found.error();
-    std::vector<double> values(found->count());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      values[i] = found->at<double>(i);
-      if (!(std::abs(values[i]) <= 1e12)) {
+    const std::size_t count = found->count();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!(std::abs(found->at<double>(i)) <= 1e12)) {
         return fail(name, "it holds a number that is not finite, or beyond all bounds");
       }
     }
+    return found;
+  }
+
+  Result<std::vector<double>> reals(std::string_view name, const NpyShape& shape) {
+    const auto found = real_array(name, shape);
+    if (!found) return found.error();
+    std::vector<double> values(found->count());
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = found->at<double>(i);
     return values;
+  }
+
+  /// Frees the bytes of an array: those of all frames are as large as the motion.
+  void drop(std::string_view name) {
+    const auto known = files_.find(name);
+    if (known != files_.end()) files_.erase(known);
   }
 
   Result<std::vector<std::string>> texts(std::string_view name, std::size_t count) {
@@ -220,15 +252,14 @@ class Reader {
     if (!(glm::length(out.translation) <= kMaxDistance_m)) {
       return fail("a joint lies further than 10 km away");
     }
-    const auto turn = rotation(turns, i);
+    const auto turn =
+        rotation({turns[4 * i], turns[4 * i + 1], turns[4 * i + 2], turns[4 * i + 3]});
     if (!turn) return fail("a rotation is not a quaternion of length 1");
     out.rotation = *turn;
     return Done{};
   }
 
-  static std::optional<glm::dquat> rotation(const std::vector<double>& wxyz,
-                                            std::size_t i) {
-    const glm::dquat q(wxyz[4 * i], wxyz[4 * i + 1], wxyz[4 * i + 2], wxyz[4 * i + 3]);
+  static std::optional<glm::dquat> rotation(const glm::dquat& q) {
     if (!(std::abs(glm::length(q) - 1.0) <= 1e-3)) return std::nullopt;
     return glm::normalize(q);
   }
@@ -237,36 +268,47 @@ class Reader {
     const auto count = length("time_s");
     if (!count) return count.error();
     frames_ = *count;
-    const auto times = reals("time_s", {frames_});
-    const auto places = reals("positions", {frames_, joints_, 3});
-    const auto turns = reals("rotations_wxyz", {frames_, joints_, 4});
+    const auto times = real_array("time_s", {frames_});
     if (!times) return times.error();
+    if (frames_ > 0) out_.start_s = times->at<double>(0);
+    const auto places = real_array("positions", {frames_, joints_, 3});
     if (!places) return places.error();
-    if (!turns) return turns.error();
-    if (frames_ > 0) out_.start_s = times->front();
+    out_.motion.poses.resize(frames_);
     for (std::size_t f = 0; f < frames_; ++f) {
-      Pose pose;
+      glm::dvec3& root = out_.motion.poses[f].root_in_world;
+      for (int axis = 0; axis < 3; ++axis) {
+        root[axis] = places->at<double>(3 * f * joints_ + static_cast<std::size_t>(axis));
+      }
+      if (!(glm::length(root) <= kMaxDistance_m)) {
+        return fail("positions", "the body goes further than 10 km");
+      }
+    }
+    drop("positions");
+    const auto turns = real_array("rotations_wxyz", {frames_, joints_, 4});
+    if (!turns) return turns.error();
+    for (std::size_t f = 0; f < frames_; ++f) {
+      std::vector<glm::dquat>& pose = out_.motion.poses[f].parent_from_joint;
+      pose.reserve(joints_);
       for (std::size_t j = 0; j < joints_; ++j) {
-        const auto turn = rotation(*turns, f * joints_ + j);
+        const std::size_t at = 4 * (f * joints_ + j);
+        const auto turn = rotation({turns->at<double>(at),
+                                    turns->at<double>(at + 1),
+                                    turns->at<double>(at + 2),
+                                    turns->at<double>(at + 3)});
         if (!turn) {
           return fail("rotations_wxyz",
                       "frame " + std::to_string(f) + " holds no quaternion of length 1");
         }
-        pose.parent_from_joint.push_back(*turn);
+        pose.push_back(*turn);
       }
-      const double* root = places->data() + 3 * f * joints_;
-      pose.root_in_world = {root[0], root[1], root[2]};
-      if (!(glm::length(pose.root_in_world) <= kMaxDistance_m)) {
-        return fail("positions", "the body goes further than 10 km");
-      }
-      out_.motion.poses.push_back(std::move(pose));
     }
+    drop("rotations_wxyz");
     return Done{};
   }
 
   Status uncertainty() {
     if (!has("sigma_m") || !has("source")) return Done{};
-    const auto sigmas = reals("sigma_m", {frames_, joints_});
+    const auto sigmas = real_array("sigma_m", {frames_, joints_});
     const auto sources = array("source", "|u1", {frames_, joints_});
     if (!sigmas) return sigmas.error();
     if (!sources) return sources.error();
@@ -274,7 +316,7 @@ class Reader {
       auto& frame = out_.uncertainty.emplace_back(joints_);
       for (std::size_t j = 0; j < joints_; ++j) {
         const auto source = sources->at<std::uint8_t>(f * joints_ + j);
-        frame[j].sigma_m = (*sigmas)[f * joints_ + j];
+        frame[j].sigma_m = sigmas->at<double>(f * joints_ + j);
         if (source > 2 || frame[j].sigma_m < 0.0) {
           return fail("source",
                       "frame " + std::to_string(f) + " holds no source or sigma");
@@ -298,7 +340,7 @@ class Reader {
     return Done{};
   }
 
-  const std::string& file_;
+  std::string file_;
   std::optional<ZipReader> zip_;
   std::map<std::string, std::string, std::less<>> files_;  ///< By name of the array.
   NpzMotion out_;
@@ -306,16 +348,31 @@ class Reader {
   std::size_t frames_ = 0;
 };
 
+Status check_npz_file(const std::filesystem::path& path) {
+  if (const Status ok = check_input_file(path); !ok) return ok;
+  errno = 0;
+  const std::ifstream stream(path, std::ios::binary);
+  if (stream) return Done{};
+  return bad_input(path.string(),
+                   "the file cannot be read: " + std::generic_category().message(errno),
+                   "check its permissions");
+}
+
 }  // namespace
 
 Result<NpzMotion> parse_npz(std::string_view bytes, const std::string& file) {
-  return Reader(file).read(bytes);
+  return Reader(file).read(ZipReader::open(bytes));
 }
 
 Result<NpzMotion> read_npz(const std::filesystem::path& path) {
-  const Result<std::string> bytes = read_file(path);
-  if (!bytes) return bytes.error();
-  return parse_npz(*bytes, path.string());
+  if (const Status ok = check_npz_file(path); !ok) return ok.error();
+  return Reader(path.string()).read(ZipReader::open_file(path));
+}
+
+Result<std::vector<std::vector<JointUncertainty>>> read_npz_uncertainty(
+    const std::filesystem::path& path) {
+  if (const Status ok = check_npz_file(path); !ok) return ok.error();
+  return Reader(path.string()).read_uncertainty(ZipReader::open_file(path));
 }
 
 }  // namespace marey::recordings
