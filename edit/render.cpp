@@ -29,7 +29,7 @@ bool is_kept(std::size_t index, std::size_t count) {
 
 /// Motions before the next operation, and the number of operations that are done.
 struct RenderStart {
-  const Rendered* known = nullptr;  ///< Of the cache.
+  const Rendered* known = nullptr;  ///< A result in the cache.
   std::size_t done = 0;
 };
 

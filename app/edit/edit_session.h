@@ -99,7 +99,7 @@ class EditSession {
   [[nodiscard]] EditOutcome restore(const std::string& text, bool is_undo);
 
   std::filesystem::path recipe_file_;
-  std::string file_text_;  ///< Of the recipe's file when it was read or written last.
+  std::string file_text_;  ///< The recipe's file when it was read or written last.
   EditJournal journal_;
   EditRecipe recipe_;
   std::set<std::string> avatars_;

@@ -199,7 +199,7 @@ struct SpliceRun {
   int enter = 0;
 };
 
-/// Joins two clips by the operation, as `op` says.
+/// Joins two clips by the operation with the keys of `op`.
 inline Result<SpliceRun> splice(const EditState& a, const EditState& b, SpliceOp op) {
   op.source = "next";
   EditOp with;

@@ -40,7 +40,7 @@ struct ClosedCycle {
   PlanarMove travel;
   double travel_m = 0.0;  ///< Distance that the hips travel in one cycle.
   PlantReport plant;
-  DroppedConstraints dropped;  ///< Of the source's constraints.
+  DroppedConstraints dropped;  ///< Constraints outside of the cycle.
 };
 
 /// Returns the number of whole frames nearest to the period: at least 2.

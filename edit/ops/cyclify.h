@@ -25,8 +25,8 @@ namespace marey::edit {
 ///
 /// Constraints that are fully active at some time of the cycle move with it
 /// (carry_constraints()), and each copy has its own with a new id (repeat_constraints()).
-/// Others are dropped, with a finding that has their number; so are, with
-/// CycleDrift::kNone, those at a place of the world if the source travels.
+/// Others are dropped, with a finding that has their number. With CycleDrift::kNone, a
+/// constraint at a place in the world is dropped, too, if the source travels.
 ///
 /// Errors (bad input): groups or blend_s are given (a loop is of the whole body); no
 /// cycle was found; the period's limits are reversed, or longer than the motion; `from`

@@ -27,7 +27,7 @@ namespace marey::edit {
 /// weights, the root anchored on the bearing feet. Without one, or if a motion ends or
 /// begins there, both are displaced towards each other, half of the gap each, decaying
 /// over `blend_s`. Then the feet are planted in the stances that touch these frames
-/// (edit/state/plant_near.h).
+/// (edit/splice/plant_near.h).
 ///
 /// Frames, overlap and decay that are not given are those of the first join, of the best
 /// pairs of frames, in which no joint accelerates more than 1.1 times as much as any

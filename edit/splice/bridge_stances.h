@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "edit/splice/plant_near.h"
 #include "edit/splice/splice_carry.h"
 #include "edit/state/edit_state.h"
-#include "edit/state/plant_near.h"
 
 namespace marey::edit {
 

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "edit/splice/bridge_stances.h"
+#include "edit/splice/plant_near.h"
 #include "edit/splice/splice_carry.h"
 #include "edit/splice/splice_poses.h"
 #include "edit/state/move_state.h"
-#include "edit/state/plant_near.h"
 #include "edit/state/resample_state.h"
 #include <glm/geometric.hpp>
 

@@ -11,7 +11,7 @@
 
 namespace marey::edit {
 
-/// How two motions are joined.
+/// The way in which two motions are joined.
 struct JoinPlan {
   SpliceCandidate pair;    ///< Frames that become one instant, and the move on the floor.
   int overlap_frames = 0;  ///< 0: both motions are displaced towards each other.

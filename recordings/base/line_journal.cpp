@@ -45,7 +45,7 @@ int write_all(int fd, std::string_view bytes, std::int64_t offset) {
   return 0;
 }
 
-/// Returns true if a process has the file open. False if the system does not tell.
+/// Returns true if a process has the file open. False if that is unknown.
 bool has_open(const std::string& process, const fs::path& file) {
   std::error_code failed;
   for (auto it = fs::directory_iterator("/proc/" + process + "/fd", failed);
@@ -57,8 +57,8 @@ bool has_open(const std::string& process, const fs::path& file) {
   return false;
 }
 
-/// Returns " (process 123)" for the process that holds the lock of a file; empty if the
-/// system does not tell.
+/// Returns " (process 123)" for the process that holds the lock of a file; empty if
+/// that is unknown.
 std::string lock_holder(const fs::path& file, ino_t inode) {
   std::ifstream locks("/proc/locks");
   const std::string end = ":" + std::to_string(inode);

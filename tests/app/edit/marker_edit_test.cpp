@@ -128,7 +128,7 @@ TEST(MarkerEdit, EventsOfTheC3dAreInstants) {
   EXPECT_EQ(notes[0].at("text"), "left.strike");
 }
 
-TEST(MarkerEdit, SaysWhatAResultDoesNotHold) {
+TEST(MarkerEdit, ReportsContentThatAResultLacks) {
   const MarkerEditFolder folder;
   folder.write_recipe("[[op]]\ndo = \"place@1\"\nposition_xz_m = [0, 0]\n");
   const ProgramRun moved = folder.run();

@@ -116,7 +116,7 @@ TEST(CycleConstraints, AMissKeepsItsDistance) {
   }
 }
 
-TEST(CycleConstraints, ThoseOutsideTheCycleAreDroppedAndCounted) {
+TEST(CycleConstraints, DropsAndCountsConstraintsOutsideTheCycle) {
   LoopScene scene;
   const glm::dvec3 place(0.0, 1.0, 0.0);
   Constraint follower =

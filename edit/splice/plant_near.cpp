@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/state/plant_near.h"
+#include "edit/splice/plant_near.h"
 
 #include <algorithm>
 #include <array>
