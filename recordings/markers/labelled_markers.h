@@ -49,7 +49,7 @@ struct MarkerWriteOptions {
   std::optional<std::filesystem::path> source;
   /// Index of the source's frame that is the first one of these markers, for a part of
   /// the source: the other content is cut alike. nullopt: they have all frames.
-  std::optional<std::size_t> source_first;
+  std::optional<std::size_t> source_first = std::nullopt;
   /// Axes and unit that the source does not state, or states wrongly, are stated in the
   /// copy (POINT:X_SCREEN, Y_SCREEN, UNITS), so that a part of it is read alike.
   bool state_axes = false;

@@ -16,15 +16,15 @@
 namespace marey::edit {
 namespace {
 
-constexpr int kFrames = 360;  // 6 s
+constexpr int kWalkFrames = 360;  // 6 s
 
 // Stands for 6 s while the body drifts by 2 cm/s, feet included. They count as standing.
 EditState drifting() {
-  EditState state = state_of(standing_motion(kFrames, [](int frame, Pose& pose) {
+  EditState state = state_of(standing_motion(kWalkFrames, [](int frame, Pose& pose) {
     pose.root_in_world.x += 0.02 * frame / 60.0;
   }));
   for (retarget::FootContacts& foot : state.contacts.feet) {
-    const std::vector<FrameRange> all{{0, kFrames - 1}};
+    const std::vector<FrameRange> all{{0, kWalkFrames - 1}};
     foot.heel = all;
     foot.ball = all;
     foot.stance = all;
@@ -41,7 +41,7 @@ TEST(PlantNear, FeetStandStillInTheZoneAndKeepTheirMotionFarFromIt) {
   for (const HumanBone bone : {HumanBone::kLeftFoot, HumanBone::kRightFoot}) {
     const auto old = joint_way(before.motion, bone);
     const auto way = joint_way(state.motion, bone);
-    for (int t = 1; t < kFrames; ++t) {
+    for (int t = 1; t < kWalkFrames; ++t) {
       const auto k = static_cast<std::size_t>(t);
       const double speed = glm::length(way[k] - way[k - 1]) * 60.0;
       if (t > zone.first && t <= zone.last) {
