@@ -8,6 +8,7 @@
 
 #include "tests/library/moved_motion.h"
 #include "tests/library/search/plain_warp.h"
+#include "tests/support/program/count_allocations.h"
 
 namespace marey::library {
 namespace {
@@ -94,6 +95,17 @@ TEST(WarpDistance, StopsEarlyWithoutAnotherResult) {
       }
     }
   }
+}
+
+TEST(WarpDistance, AllocatesForALongerClipOnly) {
+  WarpScratch scratch;
+  const std::vector<float> query = random_rows(1, 21);
+  const std::vector<float> clip = random_rows(2, 90);
+  (void)warp_distance(query, clip, WarpEnds::kSubsequence, scratch);
+  const long before = testing::allocations();
+  (void)warp_distance(query, clip, WarpEnds::kSubsequence, scratch);
+  (void)warp_distance(query, query, WarpEnds::kWhole, scratch);
+  EXPECT_EQ(testing::allocations(), before);
 }
 
 TEST(WarpDistance, DeclinesClipsBeyondTwofoldStretch) {
