@@ -113,7 +113,6 @@ std::optional<WarpMatch> warp_distance(std::span<const float> query,
   const double max_sum = max_distance * unit * kBoundMargin;
 
   WarpRows rows = make_rows(scratch, columns);
-  float least_before = kInfinite;
   for (std::size_t i = 0; i < count; ++i) {
     set_costs(query.data() + i * kFeatureStride, clip, rows.now);
     if (i == 0) {
@@ -122,11 +121,9 @@ std::optional<WarpMatch> warp_distance(std::span<const float> query,
       extend_alignments(rows, static_cast<std::ptrdiff_t>(columns));
     }
     const float least = least_sum(rows.now, columns);
-    const float reachable = std::min(least, least_before);
-    if (reachable == kInfinite || static_cast<double>(reachable) > max_sum) {
-      return std::nullopt;
-    }
-    least_before = least;
+    // No alignment has a lower sum at this row of the query, not even one that passes it
+    // within a step (2,1): D(i,j) is the least of these sums, too.
+    if (least == kInfinite || static_cast<double>(least) > max_sum) return std::nullopt;
     if (i + 1 < count) rows = {rows.earlier, rows.now, rows.before};
   }
   std::size_t end = columns - 1;

@@ -184,6 +184,11 @@ TEST(FindSimilar, AcceptsEmptyLibrariesAndQueries) {
   ASSERT_EQ(found.size(), 5U);
   EXPECT_EQ(found[0].clip, 3);
   EXPECT_EQ(found[0].first_row, 4);
+  options.top = 10;
+  options.skipped_clip = 3;
+  const auto others = find_similar(query_part(made.clips[3], 4, 1), made.rows(), options);
+  ASSERT_EQ(others.size(), 4U);
+  for (const SimilarMotion& other : others) EXPECT_NE(other.clip, 3);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "library/search/warp_distance.h"
 
 #include <algorithm>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -72,6 +73,37 @@ TEST(WarpDistance, FollowsAMotionOfAnotherSpeed) {
   ASSERT_TRUE(at_half);
   // The passed rows of the clip count, too: 21 cells for 11 rows of the query.
   EXPECT_LE(match->distance * 11.0, at_half->distance * 21.0 + 1e-4);
+}
+
+// Rows by letter: equal letters are equal rows.
+std::vector<float> lettered_rows(const std::string& letters) {
+  std::vector<float> out;
+  for (const char letter : letters) {
+    const std::vector<float> row = random_rows(static_cast<std::uint64_t>(letter), 1);
+    out.insert(out.end(), row.begin(), row.end());
+  }
+  return out;
+}
+
+TEST(WarpDistance, NamesTheRowsThatAreAligned) {
+  struct Case {
+    const char* query;
+    const char* clip;
+    int first_row;
+    int last_row;
+  };
+  for (const Case& c : {Case{"abc", "zabbc", 1, 4},    // One step (1,2).
+                        Case{"abbc", "zzabc", 2, 4},   // One step (2,1).
+                        Case{"aab", "aaab", 1, 3},     // (1,1) before (1,2).
+                        Case{"ab", "abzab", 0, 1}}) {  // The earliest end.
+    WarpScratch scratch;
+    const auto match = warp_distance(
+        lettered_rows(c.query), lettered_rows(c.clip), WarpEnds::kSubsequence, scratch);
+    ASSERT_TRUE(match);
+    EXPECT_EQ(match->distance, 0.0) << c.query;
+    EXPECT_EQ(match->first_row, c.first_row) << c.query;
+    EXPECT_EQ(match->last_row, c.last_row) << c.query;
+  }
 }
 
 // Bounds at, above and below the distance.
