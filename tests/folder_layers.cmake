@@ -4,7 +4,7 @@
 # Folders inside the rooms, lowest first: a file may include its own folder and those
 # before it. "." is the room's top folder. docs/architecture.md describes each folder;
 # tests/folders.cmake checks the order.
-set(core_LAYERS base . human edit)
+set(core_LAYERS base . human edit library)
 set(capture_LAYERS v4l2 sync video tags boards search feeds)
 set(calib_LAYERS model bundle rig plan quality)
 set(reconstruct_LAYERS
@@ -13,8 +13,9 @@ set(retarget_LAYERS
   base constraints bones body character contacts feet balance hands motion
   adapt/plan adapt/kernel adapt)
 set(edit_LAYERS signal state find filter splice ops markers .)
-set(recordings_LAYERS base body edit takes motion gltf markers print session)
+set(library_LAYERS clips features search)
+set(recordings_LAYERS base body edit takes motion gltf markers print session library)
 set(live_LAYERS udp vmc page web)
 set(app_LAYERS
   shell motion pages adapt convert print plan record check markers process retarget
-  live_chain view edit live inspect .)
+  live_chain view edit library live inspect .)

@@ -245,6 +245,10 @@ void Statement::bind(int place, std::span<const std::byte> value) {
   sqlite3_bind_blob64(statement_.get(), place + 1, bytes, value.size(), SQLITE_TRANSIENT);
 }
 
+void Statement::bind(int place, std::nullptr_t) {
+  sqlite3_bind_null(statement_.get(), place + 1);
+}
+
 bool Statement::run() {
   if (!statement_) return false;
   result_ = sqlite3_step(statement_.get());

@@ -80,6 +80,7 @@ class Statement {
   void bind(int place, double value);
   void bind(int place, std::string_view value);
   void bind(int place, std::span<const std::byte> value);
+  void bind(int place, std::nullptr_t);
   /// Runs a statement without results, and resets it for the next values.
   [[nodiscard]] bool run();
   /// Fetches the next row, if any. After the last one, failed() distinguishes the end

@@ -42,7 +42,7 @@ std::optional<NpyShape> shape_of(std::string_view text) {
 
 std::size_t npy_item_bytes(std::string_view type) {
   if (type == "<f8" || type == "<i8") return 8;
-  if (type == "<i4") return 4;
+  if (type == "<i4" || type == "<f4") return 4;
   if (type == "|u1" || type == "|b1") return 1;
   if (!type.starts_with("<U")) return 0;
   const auto letters = to_integer(type.substr(2));

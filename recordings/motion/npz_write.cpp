@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cstdint>
-#include <cstring>
 #include <string_view>
 
 #include <glm/gtc/quaternion.hpp>
@@ -11,122 +9,23 @@
 #include "core/base/assert.h"
 #include "core/pose.h"
 #include "recordings/base/atomic_file.h"
-#include "recordings/base/zip_archive.h"
 #include "recordings/motion/npz.h"
+#include "recordings/motion/npz_arrays.h"
 
 namespace marey::recordings {
 namespace {
 
 constexpr std::int64_t kFormat = 1;
 
-// The format is little-endian here, as are all supported machines.
-template <class T>
-void append(std::string& bytes, T value) {
-  char raw[sizeof(T)];
-  std::memcpy(raw, &value, sizeof(T));
-  bytes.append(raw, sizeof(T));
-}
-
-void append(std::string& bytes, const glm::dvec3& v) {
+void append_point(std::string& bytes, const glm::dvec3& v) {
   for (int i = 0; i < 3; ++i) append(bytes, v[i]);
 }
 
-void append(std::string& bytes, const glm::dquat& q) {
+void append_wxyz(std::string& bytes, const glm::dquat& q) {
   for (const double part : {q.w, q.x, q.y, q.z}) append(bytes, part);
 }
 
-using Shape = std::vector<std::size_t>;
-
-/// Returns numpy's .npy, version 1.0: a Python dictionary in a header of whole 64 bytes,
-/// and data.
-std::string npy(std::string_view type, const Shape& shape, std::string_view data) {
-  std::string head = "{'descr': '" + std::string(type) + "', 'fortran_order': False, ";
-  head += "'shape': (";
-  for (const std::size_t size : shape) head += std::to_string(size) + ", ";
-  head += "), }";
-  if (const auto at = head.find(", ), }"); at != std::string::npos && shape.size() > 1) {
-    head.erase(at, 2);  // A tuple of one element keeps its comma.
-  }
-  constexpr std::size_t kBefore = 10;
-  head.append(63 - (kBefore + head.size()) % 64, ' ');
-  head += '\n';
-  std::string bytes("\x93NUMPY\x01\x00", 8);
-  append(bytes, static_cast<std::uint16_t>(head.size()));
-  return bytes.append(head).append(data);
-}
-
-/// Returns the code points of UTF-8; invalid bytes become U+FFFD.
-std::u32string code_points(std::string_view text) {
-  std::u32string out;
-  for (std::size_t i = 0; i < text.size();) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const std::size_t more = byte < 0x80   ? 0
-                             : byte < 0xc2 ? 4
-                             : byte < 0xe0 ? 1
-                             : byte < 0xf0 ? 2
-                             : byte < 0xf5 ? 3
-                                           : 4;
-    char32_t point = byte & (more == 0 ? 0x7fU : 0x3fU >> more);
-    bool good = more < 4 && i + more < text.size();
-    for (std::size_t k = 1; good && k <= more; ++k) {
-      const auto next = static_cast<unsigned char>(text[i + k]);
-      good = (next & 0xc0U) == 0x80;
-      point = (point << 6U) | (next & 0x3fU);
-    }
-    constexpr std::array<char32_t, 4> kMinCodePoint{0, 0x80, 0x800, 0x10000};
-    good = good && point >= kMinCodePoint[more] && point <= 0x10ffff &&
-           (point < 0xd800 || point > 0xdfff);
-    out += good ? point : U'\ufffd';
-    i += good ? more + 1 : 1;
-  }
-  return out;
-}
-
-/// An archive under construction.
-class Arrays {
- public:
-  void add(std::string_view name,
-           std::string_view type,
-           const Shape& shape,
-           std::string_view data) {
-    zip_.add(std::string(name) + ".npy", npy(type, shape, data));
-  }
-
-  void add_number(std::string_view name, double value) {
-    std::string data;
-    append(data, value);
-    add(name, "<f8", {}, data);
-  }
-
-  void add_integer(std::string_view name, std::int64_t value) {
-    std::string data;
-    append(data, value);
-    add(name, "<i8", {}, data);
-  }
-
-  /// Adds texts in numpy's form: four bytes for each letter, padded with zeros.
-  void add_texts(std::string_view name, const std::vector<std::string>& texts) {
-    std::vector<std::u32string> wide;
-    std::size_t longest = 1;
-    for (const std::string& text : texts) {
-      wide.push_back(code_points(text));
-      longest = std::max(longest, wide.back().size());
-    }
-    std::string data;
-    for (std::u32string& text : wide) {
-      text.resize(longest, U'\0');
-      for (const char32_t letter : text) append(data, static_cast<std::uint32_t>(letter));
-    }
-    add(name, "<U" + std::to_string(longest), {texts.size()}, data);
-  }
-
-  std::optional<std::string> finish() { return std::move(zip_).finish(); }
-
- private:
-  ZipWriter zip_;
-};
-
-void add_skeleton(Arrays& arrays, const Skeleton& skeleton) {
+void add_skeleton(NpzArrays& arrays, const Skeleton& skeleton) {
   const std::size_t joints = skeleton.joints.size();
   std::vector<std::string> names;
   std::vector<std::string> bones;
@@ -137,8 +36,8 @@ void add_skeleton(Arrays& arrays, const Skeleton& skeleton) {
     names.push_back(joint.name);
     bones.emplace_back(joint.bone ? name(*joint.bone) : "");
     append(parents, joint.parent ? static_cast<std::int32_t>(index(*joint.parent)) : -1);
-    append(places, joint.parent_from_joint.translation);
-    append(rotations, glm::normalize(joint.parent_from_joint.rotation));
+    append_point(places, joint.parent_from_joint.translation);
+    append_wxyz(rotations, glm::normalize(joint.parent_from_joint.rotation));
   }
   arrays.add_texts("joint_names", names);
   arrays.add_texts("human_bones", bones);
@@ -151,10 +50,10 @@ void add_skeleton(Arrays& arrays, const Skeleton& skeleton) {
 void append_near(std::string& bytes, const glm::dquat& rotation, glm::dquat& last) {
   const glm::dquat unit = glm::normalize(rotation);
   last = glm::dot(unit, last) < 0.0 ? -unit : unit;
-  append(bytes, last);
+  append_wxyz(bytes, last);
 }
 
-void add_poses(Arrays& arrays, const Motion& motion) {
+void add_poses(NpzArrays& arrays, const Motion& motion) {
   const std::size_t joints = motion.skeleton.joints.size();
   const std::size_t frames = motion.poses.size();
   const glm::dquat none(1.0, 0.0, 0.0, 0.0);
@@ -168,7 +67,7 @@ void add_poses(Arrays& arrays, const Motion& motion) {
     MAREY_ASSERT(pose.parent_from_joint.size() == joints);
     world_from_joints(motion.skeleton, pose, world_from_joint);
     for (std::size_t i = 0; i < joints; ++i) {
-      append(places, world_from_joint[i].translation);
+      append_point(places, world_from_joint[i].translation);
       append_near(local, pose.parent_from_joint[i], last_local[i]);
       append_near(world, world_from_joint[i].rotation, last_world[i]);
     }
@@ -178,7 +77,7 @@ void add_poses(Arrays& arrays, const Motion& motion) {
   arrays.add("world_rotations_wxyz", "<f8", {frames, joints, 4}, world);
 }
 
-void add_uncertainty(Arrays& arrays,
+void add_uncertainty(NpzArrays& arrays,
                      std::span<const std::vector<JointUncertainty>> uncertainty,
                      std::size_t joints) {
   std::string sigmas;
@@ -192,7 +91,7 @@ void add_uncertainty(Arrays& arrays,
       append(valid, static_cast<std::uint8_t>(joint.source != Source::kInferred));
     }
   }
-  const Shape shape{uncertainty.size(), joints};
+  const NpyShape shape{uncertainty.size(), joints};
   arrays.add("sigma_m", "<f8", shape, sigmas);
   arrays.add("source", "|u1", shape, sources);
   std::vector<std::string> names;
@@ -209,7 +108,7 @@ void add_uncertainty(Arrays& arrays,
 Result<std::string> npz_bytes(const Motion& motion, const NpzExtras& extras) {
   const std::size_t frames = motion.poses.size();
   MAREY_ASSERT(!motion.skeleton.joints.empty());
-  Arrays arrays;
+  NpzArrays arrays;
   arrays.add_integer("format", kFormat);
   arrays.add_number("rate_hz", motion.rate.hz);
   arrays.add_integer("first_frame", motion.first_frame);

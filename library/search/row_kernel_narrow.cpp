@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "library/search/row_kernel.h"
+
+#if defined(__SSE2__)
+#include "library/search/row_loop.h"
+#endif
+
+namespace marey::library {
+
+SquaredDistances make_narrow_row_kernel() {
+#if defined(__SSE2__)
+  return &RowLoop<xsimd::batch<float, xsimd::sse2>>::run;
+#else
+  return nullptr;
+#endif
+}
+
+}  // namespace marey::library
