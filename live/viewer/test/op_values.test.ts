@@ -142,6 +142,13 @@ test('mistakes are found at their keys', () => {
     {do: 'move_end', foot: 'left', part: 'heel', from_s: 2, to_s: 1.9}]}), {});
 });
 
+test('a cycle has both ends or none', () => {
+  assert.deepEqual([...checkOp({do: 'cyclify@1', cycle_from_s: 1}).keys()], ['cycle_to']);
+  assert.deepEqual([...checkOp({do: 'cyclify@1', cycle_to: 'left.strike'}).keys()],
+    ['cycle_from']);
+  assert.equal(checkOp({do: 'cyclify@1', cycle_from_frame: 3, cycle_to_s: 1}).size, 0);
+});
+
 test('new operations are valid at once', () => {
   const empty = {...shown, duration_s: 0, now_s: 0};
   for (const {name, isReserved} of OPS) {

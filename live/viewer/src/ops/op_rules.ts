@@ -160,6 +160,10 @@ const CHECKS: Record<string, (op: OpKeys, problems: Problems) => void> = {
       problems.set('max_period_s', 'Less than the shortest cycle');
     }
     checkSpan(op, 'cycle_from', 'cycle_to', problems);
+    const has = (key: string): boolean => [key, `${key}_s`, `${key}_frame`].some((one) => one in op);
+    for (const [key, other] of [['cycle_from', 'cycle_to'], ['cycle_to', 'cycle_from']]) {
+      if (has(other) && !has(key)) problems.set(key, 'Both ends are needed, or none');
+    }
   },
   contacts: (op, problems) => tablesOf(op.edits).forEach((edit, i) => {
     if ((edit.do === 'set' || edit.do === 'clear') && edit.from_s > edit.to_s) {
