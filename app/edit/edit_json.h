@@ -15,8 +15,8 @@
 
 namespace marey::app {
 
-/// Returns the content of edit.json: sources, operations with their figures and findings,
-/// and for each result its figures and the origin of its frames
+/// Returns the content of NAME.edit.json: sources, operations with their figures and
+/// findings, and for each result its figures and the origin of its frames
 /// (docs/formats/edit_recipe.md).
 [[nodiscard]] nlohmann::ordered_json edit_json(const EditRecipe& recipe,
                                                const EditFiles& files,

@@ -49,8 +49,8 @@ struct EditOutput {
                                                const std::vector<EditFigures>& figures);
 
 /// Writes NAME.npz, .bvh, .glb and .vrma (what the body allows), NAME.constraints.xml if
-/// there are any, NAME.annotations.json and edit.json. Each file appears whole or not at
-/// all; same input, same bytes. Returns the files.
+/// there are any, NAME.annotations.json and NAME.edit.json. Each file appears whole or
+/// not at all; same input, same bytes. Returns the files.
 /// Errors: the disk.
 [[nodiscard]] Result<std::vector<std::filesystem::path>> write_edit(
     const EditRecipe& recipe,

@@ -24,7 +24,7 @@ struct EditSource {
 struct EditLimits {
   std::optional<double> slide_mm;  ///< Drift of a foot within one contact.
   std::optional<double>
-      displaced_mm;  ///< Displacement of a joint against its place in the source.
+      displaced_mm;  ///< Displacement of a joint or a marker by one operation.
   std::optional<double> constraint_mm;       ///< Error of a constraint.
   std::optional<double> acceleration_ratio;  ///< Peak against the source's peak.
   bool operator==(const EditLimits&) const = default;

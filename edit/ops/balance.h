@@ -19,7 +19,7 @@ namespace marey::edit {
 /// bit, and so does a motion that needs no shift. Figures: outside_before_frames and
 /// outside_frames (frames with support whose centre of mass is outside the convex hull of
 /// the soles, retarget::track_balance()), supported_frames, max_shift_mm, lowered_mm,
-/// largest_mm. Linear in frames.
+/// displaced_mm. Linear in frames.
 ///
 /// Errors (bad input): groups; those of op_weights() and retarget::place_masses().
 [[nodiscard]] Result<EditState> apply_balance(const BalanceOp& op,

@@ -30,9 +30,9 @@ namespace marey::edit {
 ///
 /// Errors (bad input): groups or blend_s are given (a loop is of the whole body); no
 /// cycle was found; the period's limits are reversed, or longer than the motion; `from`
-/// or `to` without the other, reversed, or not in the motion; cycles not in 1 to 1000;
-/// the best gap of places is above 0.15 leg lengths and `force` is not set: the message
-/// has the gap and the frames.
+/// or `to` without the other, reversed, or not in the motion; cycles not in 1 to 10000;
+/// fewer than 4 frames; a result of more than 5 million frames; the best gap of places is
+/// above 0.15 leg lengths and `force` is not set: the message has the gap and the frames.
 [[nodiscard]] Result<EditState> apply_cyclify(const CyclifyOp& op,
                                               const OpContext& context,
                                               const EditState& state,

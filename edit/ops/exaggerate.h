@@ -23,7 +23,7 @@ namespace marey::edit {
 ///
 /// Groups limit what is amplified; span and blend_s where (op_weights(), mix_motion()).
 /// Standing feet keep their places if the root or a leg changes (hold_feet()). Figures:
-/// largest_mm, lowered_mm, feet_missed_mm. Linear in frames times joints.
+/// displaced_mm, lowered_mm, feet_missed_mm. Linear in frames times joints.
 ///
 /// Errors (bad input): a gain that is not from -10 to 10; frequencies below 0, not below
 /// half the frame rate, or not ascending; fewer than 8 frames; those of op_weights().

@@ -12,7 +12,7 @@ namespace marey::edit {
 /// Removes noise from a motion: the root's place, and all rotations by the construction
 /// of Lee & Shin (2002), with one filter per group (filter_group.h). Impacts of a foot
 /// are not noise: they divide the channels of its leg (find_impacts.h). With
-/// `keep_contacts` a standing foot stays where it stood, frame by frame (hold_feet.h),
+/// `keep_contacts` a standing foot stays where it stood, frame by frame (held_foot.h),
 /// and the leg follows by set_feet(): its own noise in contacts is left to plant. The
 /// span limits the effect; the filter is chosen on the whole motion. Contacts are kept.
 /// Moving the motion about the vertical before or after gives the same result to

@@ -30,7 +30,7 @@ namespace marey::edit {
 /// Figures: left_out (detected touches), constraints, unmet (number of constraints that
 /// are not met in all frames in which they are fully active), error_mm.ID or error_deg.ID
 /// (largest error of each constraint that is ever fully active), worst_constraint_mm,
-/// slide_mm, added_acceleration_m_per_s2, largest_mm. Findings: each unmet constraint;
+/// slide_mm, added_acceleration_m_per_s2, displaced_mm. Findings: each unmet constraint;
 /// one that is never fully active within the motion. Costs one adaptation per frame,
 /// again for each round in which touches are left out.
 ///

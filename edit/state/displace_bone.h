@@ -37,8 +37,9 @@ struct BoneDisplacement {
 /// bone of a leg turns; the root is lowered where the legs are too short (hold_feet()).
 /// Frames with weight 0 keep their pose to the bit. The lineage is touched, and frames
 /// with a joint displaced by more than 10 mm are marked (mark_displaced()). Figures:
-/// largest_mm, missed_mm (distance from a target that is out of reach), lowered_mm. Costs
-/// some microseconds per frame, with the whole body's help some tens more.
+/// displaced_mm, missed_mm (distance from a target that is out of reach), lowered_mm,
+/// feet_missed_mm. Costs some microseconds per frame, with the whole body's help some
+/// tens more.
 ///
 /// Errors (bad input, the place is a key of the recipe): no displacement; a bone that the
 /// body does not have; `moved_m` for another bone than hands, feet and hips; numbers that
