@@ -11,22 +11,6 @@
 namespace marey::edit {
 namespace {
 
-/// Returns the letter of the other side; the letter itself if it names none.
-char exchanged_side(char c) {
-  switch (c) {
-    case 'L':
-      return 'R';
-    case 'R':
-      return 'L';
-    case 'l':
-      return 'r';
-    case 'r':
-      return 'l';
-    default:
-      return c;
-  }
-}
-
 /// Returns labels that may be the counterpart, the most certain first.
 std::vector<std::string> possible_counterparts(const std::string& label) {
   const std::size_t colon = label.rfind(':');
@@ -36,10 +20,10 @@ std::vector<std::string> possible_counterparts(const std::string& label) {
   const std::string own = label.substr(start);
   std::vector<std::string> out{subject + mirrored_name(own)};
   std::string changed = own;
-  changed.front() = exchanged_side(own.front());
+  changed.front() = other_side_letter(own.front());
   out.push_back(subject + changed);
   changed = own;
-  changed.back() = exchanged_side(own.back());
+  changed.back() = other_side_letter(own.back());
   out.push_back(subject + changed);
   return out;
 }

@@ -33,7 +33,9 @@ std::string replaced(std::string_view name,
          std::string(name.substr(place + length));
 }
 
-char other_side(char c) {
+}  // namespace
+
+char other_side_letter(char c) {
   switch (c) {
     case 'L':
       return 'R';
@@ -48,8 +50,6 @@ char other_side(char c) {
   }
 }
 
-}  // namespace
-
 std::string mirrored_name(std::string_view name) {
   for (const auto& [left, right] : kSideWords) {
     const std::size_t at_left = name.find(left);
@@ -58,7 +58,7 @@ std::string mirrored_name(std::string_view name) {
     if (at_right < at_left) return replaced(name, at_right, right.size(), left);
   }
   for (std::size_t i = 0; i < name.size(); ++i) {
-    const char other = other_side(name[i]);
+    const char other = other_side_letter(name[i]);
     if (other == name[i] || !stands_alone(name, i)) continue;
     return replaced(name, i, 1, std::string_view(&other, 1));
   }

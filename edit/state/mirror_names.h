@@ -11,6 +11,10 @@
 
 namespace marey::edit {
 
+/// Returns the letter of the other side: R for L, l for r; the letter itself if it names
+/// none.
+[[nodiscard]] char other_side_letter(char c);
+
 /// Returns a name with left and right exchanged: the first of the words left and right
 /// (in lower case, capitals or with a capital), or a single L or R that stands at an end
 /// of the name or between points, colons, dashes or underscores. The name itself without
