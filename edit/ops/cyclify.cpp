@@ -20,6 +20,7 @@
 #include "edit/state/resample_state.h"
 #include "edit/state/resolve_moment.h"
 
+#include "core/base/degrees.h"
 #include "core/base/format_text.h"
 #include "core/base/frame_range.h"
 #include "retarget/contacts/frame_marks.h"
@@ -33,7 +34,6 @@ constexpr double kMaxJointGap_legs = 0.35;
 constexpr double kNearlyAsGood = 1.1;
 constexpr int kMaxCycles = 10000;
 constexpr double kMaxCycleFrames = 5e6;
-constexpr double kCycleDegrees = 57.295779513082320877;
 
 Error bad_cyclify(std::string cause, std::string next) {
   return bad_input("motion", std::move(cause), std::move(next));
@@ -278,7 +278,7 @@ void report_cycle(const ChosenCycle& chosen,
   figure("gap_rms_mm", 1e3 * match.rms_m);
   figure("gap_worst_mm", 1e3 * match.worst_m);
   figure("velocity_gap_m_per_s", match.rms_velocity_m_per_s);
-  figure("turn_deg", kCycleDegrees * travel.turn_rad);
+  figure("turn_deg", kDegreesPerRadian * travel.turn_rad);
   figure("travel_m", closed.travel_m);
   figure("seam_acceleration_m_per_s2", seam.seam);
   figure("inside_acceleration_p95_m_per_s2", seam.inside);
@@ -287,11 +287,11 @@ void report_cycle(const ChosenCycle& chosen,
   figure("unreachable_frames", closed.plant.unreachable_frames);
 }
 
-void report_doubts(const ChosenCycle& chosen,
-                   const ClosedCycle& closed,
-                   const CyclifyOp& op,
-                   const EditState& state,
-                   OpReport& report) {
+void report_cycle_findings(const ChosenCycle& chosen,
+                           const ClosedCycle& closed,
+                           const CyclifyOp& op,
+                           const EditState& state,
+                           OpReport& report) {
   const double max_m = kMaxJointGap_legs * state.map.leg_length_m;
   const PlanarMatch& match = chosen.loop.match;
   const std::size_t had = state.constraints.constraints.size();
@@ -355,7 +355,7 @@ Result<EditState> apply_cyclify(const CyclifyOp& op,
   const double displaced_m = mark_displaced(out, closed.source, all, context.index);
   closed.cycle.motion = out.motion;
   report_cycle(*chosen, closed, displaced_m, state, report);
-  report_doubts(*chosen, closed, op, state, report);
+  report_cycle_findings(*chosen, closed, op, state, report);
   repeat_cycle(
       closed.step, cycle_events(closed.contacts, out.motion.rate.hz), op.cycles, out);
   return out;

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,14 +20,13 @@
 #include "edit/state/resample_state.h"
 #include <glm/geometric.hpp>
 
+#include "core/base/degrees.h"
 #include "core/pose.h"
 #include "retarget/contacts/frame_marks.h"
 #include "retarget/feet/leg_placement.h"
 
 namespace marey::edit {
 namespace {
-
-constexpr double kFilterDegrees = 180.0 / std::numbers::pi;
 
 std::vector<EditGroup> chosen_groups(const EditOp& op) {
   if (!op.groups.empty()) return op.groups;
@@ -84,7 +82,7 @@ void report_group(const EditState& state,
     report.figures.emplace_back(key + figure, value);
   };
   add("_cutoff_hz", *found.cutoff_hz);
-  add("_noise_deg", found.noise_rad * kFilterDegrees);
+  add("_noise_deg", found.noise_rad * kDegreesPerRadian);
   if (found.group == EditGroup::kRoot) add("_noise_mm", 1e3 * found.noise_m);
   add("_removed_rms_mm", 1e3 * removed.rms_m);
   add("_removed_max_mm", 1e3 * removed.largest_m);

@@ -3,10 +3,7 @@
 #include "edit/ops/level.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <numbers>
 #include <optional>
 #include <string>
 
@@ -17,16 +14,11 @@
 #include "edit/state/resolve_moment.h"
 #include <glm/geometric.hpp>
 
+#include "core/base/degrees.h"
+#include "core/base/format_text.h"
+
 namespace marey::edit {
 namespace {
-
-constexpr double kLevelDegrees = 180.0 / std::numbers::pi;
-
-std::string level_number(const char* format, double value) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
 
 /// Detects contacts by speed; heights may differ by the tilt of a floor.
 retarget::Contacts contacts_by_speed(const EditState& state) {
@@ -68,7 +60,7 @@ Result<Levelled> level_by_soles(const LevelOp& op,
   // Shares of a leg length: a straight walk is narrower across.
   constexpr double kMinSpreadInLegs = 0.25;
   constexpr int kMaxRounds = 6;
-  constexpr double kLevel_rad = 0.005 / kLevelDegrees;
+  constexpr double kLevel_rad = 0.005 / kDegreesPerRadian;
   const double min_spread_m =
       op.tilt ? kMinSpreadInLegs * state.map.leg_length_m : HUGE_VAL;
   Levelled out;
@@ -109,11 +101,12 @@ void report_rank(const Levelled& levelled, OpReport& report) {
 
 void report_level(const Levelled& levelled, const LevelOp& op, OpReport& report) {
   const double tilt_deg =
-      glm::length(rotation_vector(levelled.new_from_old.rotation)) * kLevelDegrees;
+      glm::length(rotation_vector(levelled.new_from_old.rotation)) * kDegreesPerRadian;
   const FloorFit& floor = levelled.floor;
   report.figures.emplace_back("tilt_deg", tilt_deg);
   if (floor.rank == FloorRank::kPlane) {
-    report.figures.emplace_back("tilt_sigma_deg", floor.tilt_sigma_rad * kLevelDegrees);
+    report.figures.emplace_back("tilt_sigma_deg",
+                                floor.tilt_sigma_rad * kDegreesPerRadian);
   }
   report.figures.emplace_back("residual_mm", 1e3 * floor.residual_m);
   report.figures.emplace_back("largest_residual_mm", 1e3 * floor.largest_residual_m);
@@ -126,7 +119,7 @@ void report_level(const Levelled& levelled, const LevelOp& op, OpReport& report)
     report.findings.push_back(
         fair_finding("tilt",
                      "floor",
-                     "the floor was tilted by " + level_number("%.1f degrees", tilt_deg),
+                     "the floor was tilted by " + format_text("%.1f degrees", tilt_deg),
                      "check which axis of the file points up")
             .measured(tilt_deg, kLargeTilt_deg, "deg"));
   }
@@ -137,7 +130,7 @@ void report_level(const Levelled& levelled, const LevelOp& op, OpReport& report)
       fair_finding(
           "residual",
           "frame " + std::to_string(floor.worst_frame),
-          "a footprint is " + level_number("%.0f mm", residual_mm) + " off the plane",
+          "a footprint is " + format_text("%.0f mm", residual_mm) + " off the plane",
           "give a span in which the feet stand on the floor")
           .measured(residual_mm, kLargeResidual_mm, "mm"));
 }

@@ -6,8 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,24 +19,19 @@
 #include "edit/state/resolve_moment.h"
 #include <glm/geometric.hpp>
 
+#include "core/base/degrees.h"
+#include "core/base/format_text.h"
 #include "retarget/contacts/frame_marks.h"
 
 namespace marey::edit {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 /// The root of a motion that travels moves at least this far. [leg lengths]
 constexpr double kMinTravelInLegs = 0.5;
 /// Longer steps lower the hips: a bearing leg is not extended further than this, or than
 /// it was. Straighter knees stretch and fold faster: at 20 % longer steps, 1.36 times the
 /// source's speed without this limit, 1.07 times with it (docs/accuracy).
 constexpr double kBentLeg = 0.95;
-
-std::string path_number(const char* format, double value) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
 
 Status check_path_op(const PathOp& op, const EditOp& with) {
   if (const Status ok = check_op_keys(with, {.span = true}); !ok) return ok;
@@ -71,9 +64,9 @@ Status check_travel(const TravelPath& path, const FrameRange& span, double leg_m
   const double travel_m = span.last > span.first ? extent_m(path, span) : 0.0;
   if (travel_m >= kMinTravelInLegs * leg_m) return Done{};
   return bad_input("",
-                   "the body travels " + path_number("%.2f m", travel_m) +
+                   "the body travels " + format_text("%.2f m", travel_m) +
                        ", less than half a leg length (" +
-                       path_number("%.2f m", kMinTravelInLegs * leg_m) +
+                       format_text("%.2f m", kMinTravelInLegs * leg_m) +
                        "): there is no path to bend",
                    "use place to move or turn a motion that stays in place");
 }
@@ -185,7 +178,7 @@ void move_constraints(const PathChange& change, EditState& state, OpReport& repo
     report.findings.push_back(
         fair_finding("constraint_travel",
                      "constraint " + constraint.id,
-                     "the path moves its point by " + path_number("%.2f m", apart_m) +
+                     "the path moves its point by " + format_text("%.2f m", apart_m) +
                          " while it is active; the middle of its time was used",
                      "check the point, or divide the constraint")
             .measured(apart_m, kApart_m, "m"));
@@ -206,7 +199,7 @@ TurnRate turn_rate(const TravelPath& old, const NewPath& made, const EditState& 
   TurnRate out;
   for (std::size_t t = 1; t + 1 < count; ++t) {
     if (!left[t] || !right[t]) continue;
-    const double half_hz = 0.5 * state.motion.rate.hz * kDegrees;
+    const double half_hz = 0.5 * state.motion.rate.hz * kDegreesPerRadian;
     const double was = (old.heading_rad[t + 1] - old.heading_rad[t - 1]) * half_hz;
     const double rate = was + (made.turn_rad[t + 1] - made.turn_rad[t - 1]) * half_hz;
     if (std::abs(rate) <= out.deg_per_s) continue;
@@ -225,8 +218,8 @@ void report_path(const TravelPath& old,
   const TurnRate rate = turn_rate(old, made, state);
   report.figures.emplace_back("length_m", old.way_m[last] - old.way_m[first]);
   report.figures.emplace_back("new_length_m", made.length_m);
-  report.figures.emplace_back("turn_deg",
-                              (made.turn_rad[last] - made.turn_rad[first]) * kDegrees);
+  report.figures.emplace_back(
+      "turn_deg", (made.turn_rad[last] - made.turn_rad[first]) * kDegreesPerRadian);
   report.figures.emplace_back("turn_rate_deg_per_s", rate.deg_per_s);
   constexpr double kMaxRate = 60.0;
   constexpr double kGrown = 1.0;
@@ -234,7 +227,7 @@ void report_path(const TravelPath& old,
   report.findings.push_back(fair_finding("turn_rate",
                                          "frame " + std::to_string(rate.frame),
                                          "the path turns by " +
-                                             path_number("%.0f deg/s", rate.deg_per_s) +
+                                             format_text("%.0f deg/s", rate.deg_per_s) +
                                              " while both feet bear",
                                          "use a wider curve, or more steps")
                                 .measured(rate.deg_per_s, kMaxRate, "deg/s"));

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <numbers>
 #include <string>
 
@@ -14,6 +13,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/format_text.h"
 #include "retarget/base/smooth_step.h"
 
 namespace marey::edit {
@@ -123,9 +123,7 @@ class PointCurve {
 };
 
 std::string metres(double value_m) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2f m", value_m);
-  return text.data();
+  return format_text("%.2f m", value_m);
 }
 
 /// Returns the change of speed at full strength for a path of another length.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numbers>
 #include <span>
 #include <string>
 #include <utility>
@@ -19,6 +18,7 @@
 #include "edit/state/support_tracks.h"
 #include <glm/geometric.hpp>
 
+#include "core/base/degrees.h"
 #include "core/base/format_text.h"
 #include "core/base/in_quotes.h"
 #include "core/pose.h"
@@ -44,7 +44,6 @@ constexpr double kPlantedTurn = 1.0 - 1e-6;  ///< Cosine of half an angle of 0.1
 /// contradicts another one. [m]
 constexpr double kTouchMissed_m = 0.010;
 constexpr double kToMm = 1e3;
-constexpr double kToDeg = 180.0 / std::numbers::pi;
 
 /// Returns the feet without a support among the constraints.
 std::array<bool, 2> feet_without_support(const EditState& state) {
@@ -195,8 +194,8 @@ void report_constraint(const retarget::KeptConstraint& kept,
                      "correct its times, which are since the first frame"));
     return;
   }
-  const double error =
-      kept.is_orientation ? kToDeg * kept.worst_error_rad : kToMm * kept.worst_error_m;
+  const double error = kept.is_orientation ? kDegreesPerRadian * kept.worst_error_rad
+                                           : kToMm * kept.worst_error_m;
   report.figures.emplace_back(
       (kept.is_orientation ? "error_deg." : "error_mm.") + kept.id, error);
   if (kept.met_frames == kept.active_frames) return;
