@@ -68,6 +68,22 @@ using Goal = std::variant<DistanceToPoint,
                           SegmentOrientation,
                           Support>;
 
+/// Returns the place of a goal in the world: its point, its footprint or the middle of
+/// its box; nullopt: it has none.
+[[nodiscard]] inline std::optional<glm::dvec3> target_in_world(const Goal& goal) {
+  if (const auto* point = std::get_if<DistanceToPoint>(&goal)) return point->p_in_world;
+  if (const auto* support = std::get_if<Support>(&goal)) {
+    return support->footprint_in_world;
+  }
+  if (const auto* box = std::get_if<AllowedSpace>(&goal)) {
+    return 0.5 * (box->min_in_world + box->max_in_world);
+  }
+  if (const auto* box = std::get_if<ForbiddenSpace>(&goal)) {
+    return 0.5 * (box->min_in_world + box->max_in_world);
+  }
+  return std::nullopt;
+}
+
 /// Time in which a constraint is active. It fades in over `start_duration_s` from
 /// `start_s` on, and out over `stop_duration_s` from `stop_s` on, with continuous speed
 /// and acceleration.

@@ -25,18 +25,4 @@ bool is_draggable_place(const Constraint& constraint) {
   return std::holds_alternative<DistanceToPoint>(constraint.goal);
 }
 
-std::optional<glm::dvec3> target_in_world(const Goal& goal) {
-  if (const auto* place = std::get_if<DistanceToPoint>(&goal)) return place->p_in_world;
-  if (const auto* support = std::get_if<Support>(&goal)) {
-    return support->footprint_in_world;
-  }
-  if (const auto* box = std::get_if<AllowedSpace>(&goal)) {
-    return 0.5 * (box->min_in_world + box->max_in_world);
-  }
-  if (const auto* box = std::get_if<ForbiddenSpace>(&goal)) {
-    return 0.5 * (box->min_in_world + box->max_in_world);
-  }
-  return std::nullopt;
-}
-
 }  // namespace marey::app

@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-
-#include <glm/vec3.hpp>
-
 #include "core/constraint.h"
 #include "live/page/page_scene.h"
 
@@ -16,8 +12,5 @@ namespace marey::app {
 
 /// Returns true if a page may move the constraint's position.
 [[nodiscard]] bool is_draggable_place(const Constraint& constraint);
-
-/// Returns the target of the goal, if it is a single point. World. [m]
-[[nodiscard]] std::optional<glm::dvec3> target_in_world(const Goal& goal);
 
 }  // namespace marey::app

@@ -194,21 +194,6 @@ Status change_times(const ConstraintChange& change,
   return Done{};
 }
 
-/// Returns the place that a change moves: a point, a footprint, or the middle of a box.
-std::optional<glm::dvec3> place_of(const Goal& goal) {
-  if (const auto* point = std::get_if<DistanceToPoint>(&goal)) return point->p_in_world;
-  if (const auto* support = std::get_if<Support>(&goal)) {
-    return support->footprint_in_world;
-  }
-  if (const auto* box = std::get_if<AllowedSpace>(&goal)) {
-    return 0.5 * (box->min_in_world + box->max_in_world);
-  }
-  if (const auto* box = std::get_if<ForbiddenSpace>(&goal)) {
-    return 0.5 * (box->min_in_world + box->max_in_world);
-  }
-  return std::nullopt;
-}
-
 /// Returns the supports of one stance: those of the same foot that take over from each
 /// other, from the heel to the ball.
 std::vector<Constraint*> stance_of(Constraint& support, ConstraintSet& set) {
@@ -249,7 +234,7 @@ Status change_constraint(const ConstraintChange& change, EditState& out) {
   }
   std::vector<Constraint*> changed{constraint};
   if (change.p_in_world) {
-    const auto place = place_of(constraint->goal);
+    const auto place = target_in_world(constraint->goal);
     if (!place) {
       return bad_input(where,
                        "it has position_m, and the constraint has no place in the world",
