@@ -9,10 +9,10 @@
 #include <utility>
 #include <variant>
 
+#include "edit/find/peak_acceleration.h"
 #include "edit/render.h"
 #include "edit/state/edit_state.h"
 
-#include "app/edit/peak_acceleration.h"
 #include "app/motion/raw_body.h"
 #include "app/motion/read_body.h"
 #include "core/base/extension.h"
@@ -83,7 +83,7 @@ class EditReader {
     auto state = is_recipe ? render_source(file, place) : read_motion_source(file, place);
     if (!state) return state.error();
     if (place == 0) {
-      out_.source_peak_m_per_s2 = peak_acceleration_m_per_s2(state->motion);
+      out_.source_peak_m_per_s2 = edit::peak_acceleration(state->motion).m_per_s2;
     }
     out_.inputs.sources.insert_or_assign(source.id, *std::move(state));
     return Done{};

@@ -7,13 +7,13 @@
 #include <cstddef>
 #include <utility>
 
+#include "edit/find/peak_acceleration.h"
 #include "edit/state/measure_constraints.h"
 #include "edit/state/plant_feet.h"
 #include "edit/state/resolve_moment.h"
 #include <nlohmann/json.hpp>
 
 #include "app/edit/edit_json.h"
-#include "app/edit/peak_acceleration.h"
 #include "app/motion/marey_skeleton.h"
 #include "core/base/format_text.h"
 #include "recordings/base/atomic_file.h"
@@ -205,7 +205,8 @@ std::vector<EditFigures> measure_edit(const EditRecipe& recipe,
     figures.slide_cm_per_s = slide.mean_cm_per_s;
     figures.displaced_mm = largest_figure(rendered, "displaced_mm");
     if (source_peak > 0.0) {
-      figures.acceleration_ratio = peak_acceleration_m_per_s2(state.motion) / source_peak;
+      figures.acceleration_ratio =
+          edit::peak_acceleration(state.motion).m_per_s2 / source_peak;
     }
     figures.constraint_mm = 1e3 * edit::worst_constraint_m(state);
     for (const edit::FrameLineage& frame : state.lineage.frames) {

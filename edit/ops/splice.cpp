@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "edit/find/find_splice.h"
+#include "edit/find/peak_acceleration.h"
 #include "edit/splice/choose_join.h"
 #include "edit/splice/choose_splice.h"
 #include "edit/splice/join_motions.h"
-#include "edit/splice/join_peak.h"
 #include "edit/splice/splice_source.h"
 #include "edit/state/check_op_keys.h"
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "edit/find/peak_acceleration.h"
 #include "edit/splice/join_motions.h"
-#include "edit/splice/join_peak.h"
 #include "edit/state/edit_state.h"
 
 namespace marey::edit {

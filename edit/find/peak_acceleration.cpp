@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/splice/join_peak.h"
+#include "edit/find/peak_acceleration.h"
 
 #include <algorithm>
 #include <array>
