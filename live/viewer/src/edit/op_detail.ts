@@ -10,7 +10,7 @@ import {OpForm} from './op_form';
 import type {FormHost} from './op_form';
 import {commonFields, schemaOf} from '../ops/op_schema';
 import {figuresOf, figureWords} from '../ops/op_summary';
-import {haveSameTimes} from '../ops/selection';
+import {haveSameTimes} from '../ops/op_origins';
 
 export interface DetailActions {
   move(by: -1 | 1): void;

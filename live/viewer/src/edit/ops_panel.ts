@@ -17,8 +17,8 @@ import {OpDetail} from './op_detail';
 import {OpDrag} from '../ops/op_drag';
 import {OpRow} from '../ops/op_row';
 import {schemaOf} from '../ops/op_schema';
-import {moveTarget, originsOf, originsOfPatch} from '../ops/selection';
-import type {Origins} from '../ops/selection';
+import {moveTarget, originsOf, originsOfPatch} from '../ops/op_origins';
+import type {Origins} from '../ops/op_origins';
 
 type Steps = (ops: readonly OpWords[]) => OpStep[] | null;
 

@@ -4,7 +4,7 @@
 // Changes of the recipe by handles of the body: keys of a pose and constraints.
 
 import type {Change} from '../edit/edit_document';
-import {stepsForFound} from '../edit/found_constraints';
+import {stepsForFound} from '../edit/constraint_changes';
 import {placeIndex} from '../edit/edit_view';
 import {opToChange, rounded, roundedVector} from './op_to_change';
 import type {EditConstraintWords, OpKeys, OpValue, OpWords} from '../protocol/edit_protocol';

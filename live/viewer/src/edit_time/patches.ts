@@ -6,7 +6,7 @@
 
 import type {Change} from '../edit/edit_document';
 import {opName} from '../edit/edit_document';
-import {stepsForFound} from '../edit/found_constraints';
+import {stepsForFound} from '../edit/constraint_changes';
 import {insertIndex} from '../edit/edit_view';
 import type {Place, Shown, ShownView} from './op_times';
 import {

@@ -6,7 +6,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {rowsAbove} from '../src/ops/op_drag';
-import {haveSameTimes, moveTarget, originsOf, originsOfPatch} from '../src/ops/selection';
+import {haveSameTimes, moveTarget, originsOf, originsOfPatch} from '../src/ops/op_origins';
 import type {OpStep} from '../src/protocol/edit_protocol';
 
 const op = (text: string): {do: string; off: boolean; text: string} =>
