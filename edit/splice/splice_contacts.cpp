@@ -22,20 +22,6 @@ constexpr double kMaxGap_s = 0.05;
 // Time in which a heel is lowered before the join, or raised after it. [s]
 constexpr double kRoll_s = 0.15;
 
-std::vector<FrameRange> runs_with(const FrameMarks& marks, char value) {
-  std::vector<FrameRange> out;
-  for (std::size_t t = 0; t < marks.size(); ++t) {
-    if (marks[t] != value) continue;
-    const int frame = static_cast<int>(t);
-    if (!out.empty() && out.back().last == frame - 1) {
-      out.back().last = frame;
-    } else {
-      out.push_back({frame, frame});
-    }
-  }
-  return out;
-}
-
 // Marks of both motions on the frames of the joined one.
 struct BothMarks {
   FrameMarks first;   // 0 where the first motion has no frame.
@@ -66,7 +52,7 @@ FrameMarks joined_marks(const BothMarks& both, const JoinedFrames& frames) {
 
 // Closes a gap that the join made, if it is short.
 void close_gap(const JoinedFrames& frames, FrameMarks& marks) {
-  for (const FrameRange& run : runs_with(marks, 0)) {
+  for (const FrameRange& run : retarget::runs_with(marks, 0)) {
     const bool touches_join = run.first <= frames.join + 1 && run.last >= frames.join;
     const bool is_within =
         run.first > frames.overlap_first() && run.last < frames.overlap_last();
@@ -82,7 +68,7 @@ void mend_short(const BothMarks& both, const JoinedFrames& frames, FrameMarks& m
   const int least = static_cast<int>(std::ceil(kMinContact_s * frames.hz));
   const int start = frames.overlap_first();
   const int end = frames.overlap_last();
-  for (const FrameRange& run : runs_with(marks, 1)) {
+  for (const FrameRange& run : retarget::runs_with(marks, 1)) {
     const bool is_first = run.last == frames.join;
     const bool is_second = run.first == frames.join + 1;
     if ((!is_first && !is_second) || run.last - run.first + 1 >= least) continue;
@@ -143,10 +129,10 @@ FootContacts join_foot(const FootContacts& first,
     if (ball[t] == 0 || heel[t] != 0) heel_up[t] = 0;
   }
   FootContacts out = first.stance.empty() ? second : first;
-  out.heel = runs_with(heel, 1);
-  out.ball = runs_with(ball, 1);
-  out.stance = runs_with(stance, 1);
-  out.heel_up = runs_with(heel_up, 1);
+  out.heel = retarget::runs_with(heel, 1);
+  out.ball = retarget::runs_with(ball, 1);
+  out.stance = retarget::runs_with(stance, 1);
+  out.heel_up = retarget::runs_with(heel_up, 1);
   return out;
 }
 

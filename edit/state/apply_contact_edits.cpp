@@ -16,19 +16,6 @@ namespace {
 
 using retarget::FootContacts;
 
-std::vector<FrameRange> runs_of(const std::vector<char>& marks) {
-  std::vector<FrameRange> out;
-  for (int frame = 0; frame < static_cast<int>(marks.size()); ++frame) {
-    if (marks[static_cast<std::size_t>(frame)] == 0) continue;
-    if (!out.empty() && out.back().last == frame - 1) {
-      out.back().last = frame;
-    } else {
-      out.push_back({frame, frame});
-    }
-  }
-  return out;
-}
-
 void mark(std::vector<char>& marks, int first, int last, char value) {
   const int end = static_cast<int>(marks.size()) - 1;
   for (int frame = std::max(first, 0); frame <= std::min(last, end); ++frame) {
@@ -40,7 +27,7 @@ void mark(std::vector<char>& marks, int first, int last, char value) {
 void move_edge(std::vector<char>& marks, bool is_start, int from, int to, double reach) {
   std::optional<FrameRange> nearest;
   int distance = static_cast<int>(std::floor(reach)) + 1;
-  for (const FrameRange& run : runs_of(marks)) {
+  for (const FrameRange& run : retarget::runs_with(marks)) {
     const int away = std::abs((is_start ? run.first : run.last) - from);
     if (away >= distance) continue;
     distance = away;
@@ -81,7 +68,7 @@ std::vector<FrameRange> within_ball_not_heel(const FootContacts& foot,
   for (std::size_t frame = 0; frame < up.size(); ++frame) {
     if (ball[frame] == 0 || heel[frame] != 0) up[frame] = 0;
   }
-  return runs_of(up);
+  return retarget::runs_with(up);
 }
 
 }  // namespace
@@ -102,12 +89,12 @@ void apply_contact_edits(EditState& state, std::span<const ContactEdit> edits) {
     }
     if (!changed) continue;
     foot.heel_up = within_ball_not_heel(foot, heel, ball);
-    foot.heel = runs_of(heel);
-    foot.ball = runs_of(ball);
+    foot.heel = retarget::runs_with(heel);
+    foot.ball = retarget::runs_with(ball);
     for (std::size_t frame = 0; frame < count; ++frame) {
       heel[frame] = static_cast<char>(heel[frame] | ball[frame]);
     }
-    foot.stance = runs_of(heel);
+    foot.stance = retarget::runs_with(heel);
     if (never_stood) {
       const FootContacts& other = state.contacts.feet[1 - side];
       const retarget::FootMap& shape = state.map.feet[side];

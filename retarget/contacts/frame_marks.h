@@ -25,4 +25,20 @@ namespace marey::retarget {
   return on;
 }
 
+/// Inverse of frame_marks(): returns the runs of frames with this value, ascending.
+/// Linear in frames.
+[[nodiscard]] inline std::vector<FrameRange> runs_with(std::span<const char> marks,
+                                                       char value = 1) {
+  std::vector<FrameRange> out;
+  for (int frame = 0; frame < static_cast<int>(marks.size()); ++frame) {
+    if (marks[static_cast<std::size_t>(frame)] != value) continue;
+    if (!out.empty() && out.back().last == frame - 1) {
+      out.back().last = frame;
+    } else {
+      out.push_back({frame, frame});
+    }
+  }
+  return out;
+}
+
 }  // namespace marey::retarget
