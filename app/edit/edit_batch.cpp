@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <map>
 #include <mutex>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -28,6 +28,13 @@ bool has_wildcard(const std::string& name) {
   return name.find_first_of("*?") != std::string::npos;
 }
 
+/// Returns true if a name has the pattern. Only * and ? stand for other characters.
+bool has_pattern(const std::string& pattern, const std::string& name) {
+  std::string plain;
+  for (const char c : pattern) plain += c == '[' ? std::string("[[]") : std::string(1, c);
+  return fnmatch(plain.c_str(), name.c_str(), FNM_PERIOD | FNM_NOESCAPE) == 0;
+}
+
 /// Adds what the parts of a pattern from `part` on name below `folder`.
 void expand(const fs::path& folder,
             const std::vector<std::string>& parts,
@@ -46,7 +53,7 @@ void expand(const fs::path& folder,
   const fs::path listed = folder.empty() ? fs::path(".") : folder;
   for (const auto& entry : fs::directory_iterator(listed, failed)) {
     const std::string name = entry.path().filename().string();
-    if (fnmatch(parts[part].c_str(), name.c_str(), FNM_PERIOD) == 0) add(folder / name);
+    if (has_pattern(parts[part], name)) add(folder / name);
   }
 }
 
@@ -60,11 +67,12 @@ struct BatchRow {
 };
 
 BatchRow edit_one_marker_file(EditRecipe recipe,
-                              const ReadEditOptions& read,
-                              const EditOutput& output) {
+                              const MarkerEditRunOptions& options,
+                              const EditOutput& output,
+                              bool writes) {
   BatchRow row;
   row.has_markers = true;
-  auto run = run_marker_edit(std::move(recipe), {read});
+  auto run = run_marker_edit(std::move(recipe), options);
   if (!run) {
     row.error = run.error();
     return row;
@@ -72,6 +80,7 @@ BatchRow edit_one_marker_file(EditRecipe recipe,
   row.figures = run->figures;
   row.findings = assess_edit(run->recipe, run->figures);
   row.lost = assess_marker_content(run->recipe, run->files, run->rendered, output);
+  if (!writes) return row;
   const auto written =
       write_marker_edit(run->recipe, run->files, run->rendered, run->figures, output);
   if (!written) row.error = written.error();
@@ -81,18 +90,22 @@ BatchRow edit_one_marker_file(EditRecipe recipe,
 BatchRow edit_one(EditRecipe recipe,
                   const fs::path& recipe_file,
                   const fs::path& motion,
-                  const EditOutput& output) {
+                  const EditOutput& output,
+                  const EditBatchOptions& batch) {
   std::error_code failed;
   recipe.sources.front().path = fs::absolute(motion, failed).string();
   recipe.sources.front().sha256.clear();
   BatchRow row;
-  const ReadEditOptions read{recipe_file.parent_path(), recipe_file.string(), false};
+  const ReadEditOptions read = options_of_reading(recipe_file, batch.run);
   const bool has_markers = edits_markers(recipe, read);
   if (const Status ok = check_output_formats(output, has_markers); !ok) {
     row.error = ok.error();
     return row;
   }
-  if (has_markers) return edit_one_marker_file(std::move(recipe), read, output);
+  if (has_markers) {
+    return edit_one_marker_file(
+        std::move(recipe), {read, batch.run.until}, output, !batch.check);
+  }
   auto files = read_edit_files(recipe, read);
   if (!files) {
     row.error = files.error();
@@ -100,6 +113,7 @@ BatchRow edit_one(EditRecipe recipe,
   }
   edit::RenderOptions options;
   options.recipe_file = recipe_file.string();
+  options.until = batch.run.until;
   const auto rendered = edit::render(recipe, std::move(files->inputs), options);
   if (!rendered) {
     row.error = rendered.error();
@@ -107,6 +121,7 @@ BatchRow edit_one(EditRecipe recipe,
   }
   row.figures = measure_edit(recipe, *files, *rendered);
   row.findings = assess_edit(recipe, row.figures);
+  if (batch.check) return row;
   const auto written = write_edit(recipe, *files, *rendered, row.figures, output);
   if (!written) row.error = written.error();
   return row;
@@ -191,15 +206,18 @@ std::vector<std::string> names_of_files(const std::vector<fs::path>& files) {
   };
   while (!parts.empty() && all_share(common)) ++common;
   std::vector<std::string> out;
-  std::map<std::string, int> uses;
+  std::set<std::string> uses;
   for (const auto& path : parts) {
     std::string name;
     for (std::size_t i = common; i < path.size(); ++i) {
       name += (name.empty() ? "" : ".") + path[i];
     }
-    const int count = ++uses[name];
-    // Two files of one name with different extensions.
-    out.push_back(count == 1 ? name : name + "." + std::to_string(count));
+    // Two files of one name with different extensions. The number may be another's name.
+    std::string own = name;
+    for (int count = 2; !uses.insert(own).second; ++count) {
+      own = name + "." + std::to_string(count);
+    }
+    out.push_back(std::move(own));
   }
   return out;
 }
@@ -207,17 +225,22 @@ std::vector<std::string> names_of_files(const std::vector<fs::path>& files) {
 Exit run_edit_batch(const EditRecipe& recipe,
                     const fs::path& recipe_file,
                     const std::vector<fs::path>& motions,
-                    const EditOutput& output,
+                    EditOutput output,
+                    const EditBatchOptions& options,
                     Console& console) {
   const std::vector<std::string> names = names_of_files(motions);
   std::vector<BatchRow> rows(motions.size());
+  std::error_code failed_path;
+  for (const fs::path& motion : motions) {
+    output.kept.push_back(fs::weakly_canonical(motion, failed_path));
+  }
   const Progress progress = console.stage("edit");
   std::mutex mutex;
   int done = 0;
   in_parallel(motions.size(), 0, [&](std::size_t i) {
     EditRecipe own = recipe;
     own.name = names[i];
-    rows[i] = edit_one(std::move(own), recipe_file, motions[i], output);
+    rows[i] = edit_one(std::move(own), recipe_file, motions[i], output, options);
     const std::scoped_lock lock(mutex);
     progress(++done, static_cast<int>(motions.size()));
   });
@@ -234,13 +257,17 @@ Exit run_edit_batch(const EditRecipe& recipe,
     print_warnings(console, rows[i].lost);
     if (rows[i].error || !rows[i].findings.empty()) ++failed;
   }
-  const fs::path table = output.out / "edit.csv";
-  const Status ok = recordings::write_file(table, csv_of(motions, names, rows));
-  if (!ok) return console.fail(ok.error());
   const auto count = motions.size();
-  console.say(std::to_string(count - static_cast<std::size_t>(failed)) + " of " +
-              std::to_string(count) + " motions edited; " + table.string() +
-              " has their figures");
+  const std::string succeeded = std::to_string(count - static_cast<std::size_t>(failed)) +
+                                " of " + std::to_string(count) + " motions edited; ";
+  if (options.check) {
+    console.say(succeeded + "nothing was written");
+  } else {
+    const fs::path table = output.out / "edit.csv";
+    const Status ok = recordings::write_file(table, csv_of(motions, names, rows));
+    if (!ok) return console.fail(ok.error());
+    console.say(succeeded + table.string() + " has their figures");
+  }
   return failed == 0 ? Exit::kOk : Exit::kQualityGate;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/edit/edit_outputs.h"
+#include "app/edit/edit_run.h"
 #include "app/shell/console.h"
 #include "app/shell/exit_codes.h"
 #include "core/base/result.h"
@@ -24,15 +25,22 @@ namespace marey::app {
 [[nodiscard]] std::vector<std::string> names_of_files(
     const std::vector<std::filesystem::path>& files);
 
+struct EditBatchOptions {
+  EditRunOptions run;
+  bool check = false;  ///< Writes nothing.
+};
+
 /// Applies one recipe to many motions or files of labelled markers, in parallel by file,
 /// each as the first source.
-/// Goes on after a failure. Writes the results and edit.csv, a line per result. Returns
+/// Goes on after a failure. Writes the results and edit.csv, a line per result; no
+/// result overwrites one of the motions. Returns
 /// kQualityGate if a motion failed or a figure is above its limit. Same bytes for any
 /// number of threads.
 Exit run_edit_batch(const EditRecipe& recipe,
                     const std::filesystem::path& recipe_file,
                     const std::vector<std::filesystem::path>& motions,
-                    const EditOutput& output,
+                    EditOutput output,
+                    const EditBatchOptions& options,
                     Console& console);
 
 }  // namespace marey::app

@@ -51,16 +51,34 @@ Result<std::string> sha256_of_first_source(const EditRecipe& recipe,
   return files->sha256.front();
 }
 
-Exit make_recipe(const EditArguments& args, Console& console) {
-  if (const Status ok = check_out_file(args.new_recipe); !ok) {
-    return console.fail(ok.error());
-  }
+/// Checks the file of a new recipe, and that its source exists.
+Status check_new_recipe(const EditArguments& args) {
+  if (const Status ok = check_out_file(args.new_recipe); !ok) return ok;
   std::error_code failed;
   if (fs::exists(args.new_recipe, failed)) {
-    return console.fail(bad_input(args.new_recipe.string(),
-                                  "exists already",
-                                  "give another name, or edit that recipe"));
+    return bad_input(args.new_recipe.string(),
+                     "exists already",
+                     "give another name, or edit that recipe");
   }
+  if (!args.new_recipe.string().ends_with(".edit.toml")) {
+    return bad_usage("--new",
+                     in_quotes(args.new_recipe.string()) + " is no name of a recipe",
+                     "give one that ends with .edit.toml");
+  }
+  const fs::path folder = fs::absolute(args.new_recipe, failed).parent_path();
+  if (!fs::is_directory(folder, failed)) {
+    return bad_input(args.new_recipe.string(),
+                     "its folder does not exist",
+                     "make the folder, or choose another");
+  }
+  if (fs::exists(args.recipe, failed)) return Done{};
+  return bad_input(
+      args.recipe.string(), "the file does not exist", "check the name and the folder");
+}
+
+Exit make_recipe(const EditArguments& args, Console& console) {
+  if (const Status ok = check_new_recipe(args); !ok) return console.fail(ok.error());
+  std::error_code failed;
   EditRecipe recipe;
   recipe.name = args.recipe.stem().string();
   EditSource source;
@@ -87,8 +105,11 @@ std::vector<Finding> findings_of(const EditRun& run,
   }
   for (const edit::OpReport& report : run.rendered.reports) {
     for (Finding finding : report.findings) {
-      finding.where =
+      const std::string place =
           "operation " + std::to_string(report.index + 1) + " (" + report.name + ")";
+      const bool names_op =
+          finding.where.empty() || report.name.starts_with(finding.where + "@");
+      finding.where = names_op ? place : place + ": " + finding.where;
       out.push_back(std::move(finding));
     }
   }
@@ -152,7 +173,8 @@ Exit edit_many(const EditArguments& args, const EditOutput& output, Console& con
   if (!recipe) return console.fail(recipe.error());
   const auto motions = files_of_pattern(args.each);
   if (!motions) return console.fail(motions.error());
-  return run_edit_batch(*recipe, args.recipe, *motions, output, console);
+  return run_edit_batch(
+      *recipe, args.recipe, *motions, output, {run_options(args), args.check}, console);
 }
 
 Exit serve_recipe(const EditArguments& args,
@@ -253,21 +275,36 @@ Exit run_edit(const EditArguments& args, Console& console) {
     if (const Status ok = check_out_folder(args.out); !ok)
       return console.fail(ok.error());
   }
-  if (args.serves_page) return serve_recipe(args, output.formats, console);
+  if (args.serves_page) {
+    // The page edits no markers.
+    if (const Status ok = check_output_formats(output, false); !ok) {
+      return console.fail(ok.error());
+    }
+    return serve_recipe(args, output.formats, console);
+  }
   return args.each.empty() ? edit_one_recipe(args, output, console)
                            : edit_many(args, output, console);
 }
 
 namespace {
 
-/// Options of the page need --page. Options that write or measure exclude it.
-void add_edit_page_options(CLI::App& command, EditArguments& args) {
+/// Options of the page need --page. Options that write or measure exclude it, and the
+/// making of a recipe. A batch has no single source to record and no single result to
+/// print.
+void relate_edit_options(CLI::App& command, EditArguments& args) {
   CLI::Option* page = command.add_flag(
       "--page",
       args.serves_page,
       "Edits in a browser; a motion gets the recipe NAME.edit.toml next to it");
   for (const char* other : {"--until", "--each", "--new", "--check", "--pin", "--json"}) {
     page->excludes(command.get_option(other));
+  }
+  CLI::Option* new_recipe = command.get_option("--new");
+  for (const char* other : {"--out", "--until", "--each", "--check", "--pin", "--json"}) {
+    new_recipe->excludes(command.get_option(other));
+  }
+  for (const char* other : {"--pin", "--json"}) {
+    command.get_option("--each")->excludes(command.get_option(other));
   }
   add_page_options(command, args.page.page);
   for (const char* option : {"--port", "--lan", "--web-root", "--no-open"}) {
@@ -317,7 +354,7 @@ void add_edit_command(CLI::App& app,
                     args.accept_new_source,
                     "Accepts sources that changed since they were recorded");
   command->add_flag("--json", args.json, "Prints edit.json on standard output");
-  add_edit_page_options(*command, args);
+  relate_edit_options(*command, args);
   CLI::App* diff = command->add_subcommand(
       "diff", "Compare two recipes: their operations and their results");
   diff->add_option("A", args.diff_first, "Recipe")->required();

@@ -36,7 +36,9 @@ Exit print_difference(const EditDifference& difference, bool as_json) {
   }
   print_operations(
       difference.operations, difference.first_frames, difference.second_frames);
-  if (difference.motion) {
+  if (difference.motion && difference.motion->joint.empty()) {
+    std::printf("largest difference: none\n");
+  } else if (difference.motion) {
     std::printf("largest difference: %.3f mm, %s, frame %d\n",
                 difference.motion->largest_mm,
                 difference.motion->joint.c_str(),
@@ -67,10 +69,14 @@ Exit print_difference(const MarkerEditDifference& difference, bool as_json) {
     std::printf("the results have no marker in common, or several recordings\n");
     return Exit::kOk;
   }
-  std::printf("largest difference: %.3f mm, %s, frame %d\n",
-              difference.markers->largest_mm,
-              difference.markers->marker.c_str(),
-              difference.markers->frame);
+  if (difference.markers->marker.empty()) {
+    std::printf("largest difference: none\n");
+  } else {
+    std::printf("largest difference: %.3f mm, %s, frame %d\n",
+                difference.markers->largest_mm,
+                difference.markers->marker.c_str(),
+                difference.markers->frame);
+  }
   if (difference.markers->seen_in_one > 0) {
     std::printf("samples that only one result has: %zu\n",
                 difference.markers->seen_in_one);

@@ -79,6 +79,7 @@ class EditReader {
       return ok;
     }
     out_.sha256.push_back(*sha256);
+    out_.paths.push_back(file);
     const bool is_recipe = file.string().ends_with(".edit.toml");
     auto state = is_recipe ? render_source(file, place) : read_motion_source(file, place);
     if (!state) return state.error();
@@ -157,6 +158,7 @@ class EditReader {
     for (const auto& [name, sha256] : files->avatar_sha256) out_.sha256.back() += sha256;
     if (out_.inputs.sources.empty()) out_.look = files->look;
     out_.remarks.insert(out_.remarks.end(), files->remarks.begin(), files->remarks.end());
+    out_.paths.insert(out_.paths.end(), files->paths.begin(), files->paths.end());
     // Its frames are the source's own for this recipe.
     edit::EditState state = std::move(rendered->outputs.front());
     const std::vector<edit::FrameLineage> inner = std::move(state.lineage.frames);
@@ -174,6 +176,7 @@ class EditReader {
     if (!avatar) return avatar.error();
     auto sha256 = recordings::sha256_of_file(*file);
     if (!sha256) return sha256.error();
+    out_.paths.push_back(*file);
     for (const std::string& remark : avatar->remarks) {
       out_.remarks.push_back(file->string() + ": " + remark);
     }

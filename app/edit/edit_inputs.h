@@ -27,6 +27,8 @@ struct EditFiles {
   /// Peak acceleration of a joint in the first source. [m/s^2]
   double source_peak_m_per_s2 = 0.0;
   BodyLook look;  ///< Look of the first source's body: with its mesh, if it has one.
+  /// Sources and avatars, and those of recipes among the sources.
+  std::vector<std::filesystem::path> paths;
   std::vector<std::string> remarks;  ///< Assumptions of the readers, with the file.
 };
 

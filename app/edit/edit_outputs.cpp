@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <set>
+#include <system_error>
 #include <utility>
 
 #include "edit/find/peak_acceleration.h"
@@ -179,6 +181,25 @@ Status check_output_formats(const EditOutput& output, bool has_markers) {
   return Done{};
 }
 
+Status check_no_overwrite(const EditOutput& output,
+                          const std::vector<fs::path>& read,
+                          const std::vector<std::string>& names,
+                          const std::vector<std::string>& endings) {
+  std::error_code failed;
+  std::set<fs::path> kept(output.kept.begin(), output.kept.end());
+  for (const fs::path& path : read) kept.insert(fs::weakly_canonical(path, failed));
+  for (const std::string& name : names) {
+    for (const std::string& ending : endings) {
+      const fs::path result = output.out / (name + ending);
+      if (!kept.contains(fs::weakly_canonical(result, failed))) continue;
+      return bad_input(result.string(),
+                       "is a source, and a result would overwrite it",
+                       "choose another folder with --out, or another name in the recipe");
+    }
+  }
+  return Done{};
+}
+
 std::vector<std::string> edit_names(const EditRecipe& recipe, std::size_t outputs) {
   if (outputs == 1) return {recipe.name};
   std::vector<std::string> out;
@@ -266,6 +287,12 @@ Result<std::vector<fs::path>> write_edit(const EditRecipe& recipe,
   }
   const BodyLook& look = look_of_result(recipe, files);
   const auto names = edit_names(recipe, rendered.outputs.size());
+  std::vector<std::string> endings;
+  for (const MotionFormat format : formats) {
+    endings.push_back("." + std::string(name(format)));
+  }
+  const Status spared = check_no_overwrite(output, files.paths, names, endings);
+  if (!spared) return spared.error();
   std::vector<fs::path> out;
   for (std::size_t i = 0; i < rendered.outputs.size(); ++i) {
     EditWriter writer(rendered.outputs[i], look, output.out / names[i]);

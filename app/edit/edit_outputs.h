@@ -30,10 +30,19 @@ struct EditOutput {
   std::filesystem::path out;          ///< Folder.
   std::vector<MotionFormat> formats;  ///< Empty: all formats that the body allows.
   std::vector<MarkerFormat> marker_formats{};  ///< Empty: both, for labelled markers.
+  /// Files that results must not overwrite, besides those that the recipe reads.
+  std::vector<std::filesystem::path> kept{};
 };
 
 /// Checks that formats were not given for the other kind of data only. Errors (usage).
 [[nodiscard]] Status check_output_formats(const EditOutput& output, bool has_markers);
+
+/// Checks that no result overwrites a file that was read or must be kept. `endings` are
+/// those of the results' files: ".npz". Errors (bad input): a result would overwrite one.
+[[nodiscard]] Status check_no_overwrite(const EditOutput& output,
+                                        const std::vector<std::filesystem::path>& read,
+                                        const std::vector<std::string>& names,
+                                        const std::vector<std::string>& endings);
 
 /// Returns the names of the results: that of the recipe, with .1, .2 ... if there are
 /// several.
@@ -51,7 +60,7 @@ struct EditOutput {
 /// Writes NAME.npz, .bvh, .glb and .vrma (what the body allows), NAME.constraints.xml if
 /// there are any, NAME.annotations.json and NAME.edit.json. Each file appears whole or
 /// not at all; same input, same bytes. Returns the files.
-/// Errors: the disk.
+/// Errors: the disk; check_no_overwrite()'s, before anything is written.
 [[nodiscard]] Result<std::vector<std::filesystem::path>> write_edit(
     const EditRecipe& recipe,
     const EditFiles& files,

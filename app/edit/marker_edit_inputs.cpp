@@ -172,6 +172,7 @@ Result<MarkerEditFiles> read_first_source(const EditSource& source,
                                    : render_marker_source(*file, options);
   if (!out) return out.error();
   out->sha256 = *sha256 + out->sha256;
+  out->paths.push_back(*file);
   return out;
 }
 

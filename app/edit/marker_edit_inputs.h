@@ -44,6 +44,8 @@ struct MarkerEditFiles {
   /// The C3D of which a result can keep the other content; nullopt: the source is
   /// a TRC or another recipe.
   std::optional<std::filesystem::path> c3d;
+  /// The source, and that of a recipe which is the source.
+  std::vector<std::filesystem::path> paths;
   std::vector<std::string> remarks;  ///< Notes of the reader, with the file.
 };
 

@@ -255,6 +255,12 @@ Result<std::vector<fs::path>> write_marker_edit(const EditRecipe& recipe,
                                                 const std::vector<EditFigures>& figures,
                                                 const EditOutput& output) {
   const auto names = edit_names(recipe, rendered.outputs.size());
+  std::vector<std::string> endings;
+  for (const MarkerFormat format : formats_of(output)) {
+    endings.push_back("." + std::string(name(format)));
+  }
+  const Status spared = check_no_overwrite(output, files.paths, names, endings);
+  if (!spared) return spared.error();
   std::vector<fs::path> out;
   for (std::size_t i = 0; i < rendered.outputs.size(); ++i) {
     const MarkerWriter writer(files, rendered.outputs[i], output.out / names[i]);

@@ -46,7 +46,8 @@ Status check_cyclify(const CyclifyOp& op, const EditOp& common, const EditState&
                        "give a number from 1 to " + std::to_string(kMaxCycles));
   }
   if (op.from.has_value() != op.to.has_value()) {
-    return bad_cyclify(op.from ? "from is given without to" : "to is given without from",
+    return bad_cyclify(op.from ? "cycle_from is given without cycle_to"
+                               : "cycle_to is given without cycle_from",
                        "give both, or none for the best pair");
   }
   const double max_s = op.max_period_s.value_or(state.duration_s());
@@ -100,8 +101,9 @@ Result<ChosenCycle> given_cycle(const CyclifyOp& op, const EditState& state) {
   const auto to = resolve_moment(state, *op.to);
   if (!to) return to.error();
   if (*to - *from < 2.0) {
-    return bad_cyclify(format_text("from is frame %.1f and to is frame %.1f", *from, *to),
-                       "to must be at least 2 frames after from");
+    return bad_cyclify(
+        format_text("cycle_from is frame %.1f and cycle_to is frame %.1f", *from, *to),
+        "cycle_to must be at least 2 frames after cycle_from");
   }
   const int last = std::min(static_cast<int>(std::lround(*to)), state.frame_count() - 1);
   const int first = std::min(static_cast<int>(std::lround(*from)), last - 1);
@@ -117,13 +119,13 @@ Error no_cycle(const EditState& state, const FindLoopsOptions& options) {
   if (!periods) {
     return bad_cyclify(
         "the feet do not repeat their movement, so the length of a cycle is unknown",
-        "give min_period_s and max_period_s, or from and to");
+        "give min_period_s and max_period_s, or cycle_from and cycle_to");
   }
   return bad_cyclify(
       format_text("no two frames %.3f to %.3f s apart stand on the same feet",
                   periods->min_frames / state.motion.rate.hz,
                   periods->max_frames / state.motion.rate.hz),
-      "widen min_period_s and max_period_s, or give from and to");
+      "widen min_period_s and max_period_s, or give cycle_from and cycle_to");
 }
 
 /// Returns the best candidate, or another one that is nearly as good if that has frames

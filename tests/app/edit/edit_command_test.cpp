@@ -154,6 +154,108 @@ TEST(EditCommand, WritesNothingWithCheck) {
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
+TEST(EditCommand, WritesNothingWithCheckOfManyMotions) {
+  const EditFolder folder;
+  folder.write_recipe("[limits]\nslide_mm = 0.01\n[[op]]\ndo = \"mirror@1\"\n");
+  const std::string before = folder.bytes("walk.npz");
+  const ProgramRun run = folder.call(
+      {"--progress", "none", "edit", "a.edit.toml", "--each", "*.npz", "--check"});
+  EXPECT_EQ(run.exit_code, 4) << run.err;
+  EXPECT_EQ(folder.bytes("walk.npz"), before);
+  for (const char* name : {"edit.csv", "walk.edit.json", "walk.bvh"}) {
+    EXPECT_FALSE(fs::exists(folder / name)) << name;
+  }
+}
+
+TEST(EditCommand, AppliesTheFirstOperationsToManyMotions) {
+  const EditFolder folder;
+  folder.write_recipe(
+      "[[op]]\ndo = \"cut@1\"\nto_frame = 99\n[[op]]\ndo = \"cut@1\"\nto_frame = 9\n");
+  const ProgramRun run = folder.run({"--each", "*.npz", "--until", "1"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(folder.bytes("out/edit.csv").find("\"walk\",\"walk.npz\",100,"),
+            std::string::npos);
+}
+
+TEST(EditCommand, RefusesToOverwriteItsSources) {
+  const EditFolder folder;
+  const std::string mirror = "[[op]]\ndo = \"mirror@1\"\n";
+  const std::string before = folder.bytes("walk.npz");
+  ASSERT_TRUE(recordings::write_file(
+      folder / "w.edit.toml",
+      "format = 1\nname = \"walk\"\n[source]\npath = \"walk.npz\"\n" + mirror));
+  folder.write_recipe(mirror, "path = \"w.edit.toml\"");
+  ASSERT_TRUE(recordings::write_file(
+      folder / "nested.edit.toml",
+      "format = 1\nname = \"walk\"\n[source]\npath = \"w.edit.toml\"\n"));
+  fs::create_directory(folder / "sub");
+  const std::vector<std::vector<std::string>> runs{
+      {"w.edit.toml", "--out", "."},
+      {"w.edit.toml", "--out", "sub/.."},
+      {"nested.edit.toml", "--out", "."},
+      {"a.edit.toml", "--each", "*.npz", "--out", "."}};
+  for (std::vector<std::string> arguments : runs) {
+    arguments.insert(arguments.begin(), {"--progress", "none", "edit"});
+    const ProgramRun run = folder.call(arguments);
+    EXPECT_NE(run.exit_code, 0) << arguments[3];
+    EXPECT_NE(run.err.find("would overwrite it"), std::string::npos) << run.err;
+    EXPECT_EQ(folder.bytes("walk.npz"), before) << arguments[3];
+    EXPECT_FALSE(fs::exists(folder / "walk.bvh")) << arguments[3];
+    EXPECT_FALSE(fs::exists(folder / "walk.edit.json")) << arguments[3];
+  }
+  // Other formats do not overwrite it.
+  const ProgramRun other =
+      folder.call({"edit", "w.edit.toml", "--out", ".", "--format", "bvh"});
+  EXPECT_EQ(other.exit_code, 0) << other.err;
+}
+
+TEST(EditCommand, RefusesOptionsThatItWouldIgnore) {
+  const EditFolder folder;
+  folder.write_recipe("");
+  const std::vector<std::vector<std::string>> runs{
+      {"a.edit.toml", "--each", "*.npz", "--out", "out", "--json"},
+      {"a.edit.toml", "--each", "*.npz", "--out", "out", "--pin"},
+      {"walk.npz", "--new", "n.edit.toml", "--each", "*.npz"},
+      {"walk.npz", "--new", "n.edit.toml", "--check"},
+      {"walk.npz", "--new", "n.edit.toml", "--out", "out"},
+      {"walk.npz", "--new", "n.txt"},
+      {"walk.npz", "--page", "--no-open", "--seconds", "1", "--format", "c3d"}};
+  for (std::vector<std::string> arguments : runs) {
+    arguments.insert(arguments.begin(), {"--progress", "none", "edit"});
+    const ProgramRun run = folder.call(arguments);
+    EXPECT_EQ(run.exit_code, 2) << run.err;
+    EXPECT_FALSE(fs::exists(folder / "n.edit.toml"));
+    EXPECT_FALSE(fs::exists(folder / "n.txt"));
+    EXPECT_FALSE(fs::exists(folder / "out"));
+  }
+}
+
+TEST(EditCommand, NewRecipesNeedTheirFolderAndSource) {
+  const EditFolder folder;
+  const ProgramRun absent =
+      folder.call({"edit", "none/walk.npz", "--new", "n.edit.toml"});
+  EXPECT_EQ(absent.exit_code, 3);
+  EXPECT_NE(absent.err.find("none/walk.npz: the file does not exist"), std::string::npos)
+      << absent.err;
+  const ProgramRun no_folder =
+      folder.call({"edit", "walk.npz", "--new", "none/n.edit.toml"});
+  EXPECT_EQ(no_folder.exit_code, 3);
+  EXPECT_NE(no_folder.err.find("its folder does not exist"), std::string::npos)
+      << no_folder.err;
+}
+
+TEST(EditCommand, NamesTheConstraintThatIsNotMet) {
+  const EditFolder folder;
+  folder.write_recipe(
+      "[[op]]\ndo = \"constrain@1\"\nadapt = true\n[op.constraint]\ntype = "
+      "\"Distance\"\nname = \"rail\"\nsegment = \"rightHand\"\nstart_s = 1\nstop_s = "
+      "1.5\nposition_m = [0.0, 9.0, 0.0]\n");
+  const ProgramRun run = folder.run();
+  EXPECT_NE(run.err.find("operation 1 (constrain@1): constraint \"rail\": its error is"),
+            std::string::npos)
+      << run.err;
+}
+
 TEST(EditCommand, ShowsTheOperationsAndMillimetresThatDiffer) {
   const EditFolder folder;
   folder.write_recipe("[[op]]\ndo = \"cut@1\"\nfrom_s = 0.5\n");
@@ -171,6 +273,15 @@ TEST(EditCommand, ShowsTheOperationsAndMillimetresThatDiffer) {
   EXPECT_NE(run.out.find("largest difference: "), std::string::npos) << run.out;
 }
 
+TEST(EditCommand, NamesNoJointOfEqualResults) {
+  const EditFolder folder;
+  folder.write_recipe("");
+  const ProgramRun run =
+      folder.call({"--progress", "none", "edit", "diff", "a.edit.toml", "a.edit.toml"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("largest difference: none\n"), std::string::npos) << run.out;
+}
+
 TEST(EditCommand, MakesARecipeForAMotion) {
   const EditFolder folder;
   const ProgramRun run =
@@ -185,6 +296,19 @@ TEST(EditCommand, RefusesAMotionInPlaceOfARecipe) {
   const ProgramRun run = folder.run({}, "walk.npz");
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_NE(run.err.find("--new RECIPE.edit.toml"), std::string::npos) << run.err;
+}
+
+TEST(FilesOfPattern, KnowsNoBrackets) {
+  const EditFolder folder;
+  fs::copy_file(folder / "walk.npz", folder / "walk[1].npz");
+  const auto files = app::files_of_pattern((folder / "walk[1]*.npz").string());
+  ASSERT_TRUE(files) << files.error().message();
+  EXPECT_EQ(*files, std::vector<fs::path>{folder / "walk[1].npz"});
+}
+
+TEST(NamesOfFiles, DifferFromNumberedNamesOfOtherFiles) {
+  const auto names = app::names_of_files({"t/x.2.bvh", "t/x.bvh", "t/x.npz"});
+  EXPECT_EQ(names, (std::vector<std::string>{"x.2", "x", "x.3"}));
 }
 
 TEST(NamesOfFiles, AreTheirPathsBelowTheCommonFolder) {
