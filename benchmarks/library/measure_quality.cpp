@@ -1,0 +1,318 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// measure_quality FOLDER [--half tuning|held|all] [--figures FILE.csv]
+//
+// The quality gate of motion libraries on the BVH and AMC files below FOLDER: share of
+// clean clips with a warning, and for each injected defect the recall, the precision of
+// its kind and the agreement of its frames. docs/accuracy/library_quality.md has figures.
+// Clips belong to one half by a hash of their name: limits were chosen on the tuning
+// half.
+#include "library/quality/measure_quality.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "library/clips/normal_form.h"
+
+#include "app/motion/retarget_files.h"
+#include "core/base/parallel.h"
+#include "core/base/quantile.h"
+#include "retarget/body/body_map.h"
+#include "tests/support/simulation/injected_defects.h"
+
+namespace marey {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Defect;
+
+struct Expected {
+  Defect defect;
+  std::set<std::string> kinds;  ///< Right names of the defect.
+  double bar;                   ///< Recall; 0: only reported.
+};
+
+const std::vector<Expected>& expected() {
+  static const std::vector<Expected> list{
+      {Defect::kSpike5cm, {"spike"}, 0.95},
+      {Defect::kSpike10cm, {"spike"}, 0.95},
+      {Defect::kLegsCrossed, {"swap"}, 0.95},
+      {Defect::kLegChannels, {"swap"}, 0.0},
+      {Defect::kSlide10cmS, {"slide"}, 0.95},
+      {Defect::kJitter1mm, {"jitter"}, 0.7},
+      {Defect::kJitter3mm, {"jitter"}, 0.95},
+      {Defect::kFrozenArm, {"frozen"}, 0.95},
+      {Defect::kScale110, {"scale"}, 0.95},
+      {Defect::kPathScale110, {"float", "scale", "slide"}, 0.0},
+      {Defect::kScale100, {"scale"}, 0.95},
+      {Defect::kFloor3cm, {"float"}, 0.95},
+      {Defect::kTilt3deg, {"tilt"}, 0.95},
+      {Defect::kForearmFlip, {"flip"}, 0.95},
+      {Defect::kDoubleRate, {"rate"}, 0.0},
+      {Defect::kCut300ms, {"cut"}, 0.95},
+      {Defect::kMirrored, {"sides"}, 0.7},
+  };
+  return list;
+}
+
+std::uint64_t hash_of(const std::string& text) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char c : text) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  }
+  return hash;
+}
+
+bool is_tuned_on(const std::string& clip) {
+  return (hash_of(clip) >> 32 & 1) == 0;
+}
+
+// Moves a motion to the floor, as a library's build does.
+void put_on_floor(Motion& motion, const retarget::BodyMap& map) {
+  std::vector<RigidTransform> world(motion.skeleton.joints.size());
+  std::vector<double> soles_m;
+  for (const Pose& pose : motion.poses) {
+    world_from_joints(motion.skeleton, pose, world);
+    double lowest_m = 1e9;
+    for (int side = 0; side < 2; ++side) {
+      const retarget::FootMap& foot = map.feet[static_cast<std::size_t>(side)];
+      const auto at = [&](JointIndex joint) { return world[index(joint)].translation.y; };
+      lowest_m = std::min(lowest_m, at(map.leg(side).end) - foot.ankle_height_m);
+      const auto toes =
+          map.joint_of[index(side == 0 ? HumanBone::kLeftToes : HumanBone::kRightToes)];
+      if (toes) lowest_m = std::min(lowest_m, at(*toes) - foot.ball_height_m);
+    }
+    soles_m.push_back(lowest_m);
+  }
+  if (soles_m.empty()) return;
+  const double floor_m = quantile(soles_m, 0.05);
+  for (Pose& pose : motion.poses) pose.root_in_world.y -= floor_m;
+}
+
+// Processor time of this thread. Other programs do not change it.
+double thread_time_s() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+struct Measured {
+  library::QualityResult result;
+  bool tried = false;
+  bool named = false;   ///< A problem has a right kind.
+  bool placed = false;  ///< Such a problem has the right frames, within 3.
+  bool is_local = false;
+};
+
+struct MeasuredClip {
+  std::string name;
+  int frames = 0;
+  double seconds = 0.0;  ///< Time of measure_quality() on the clean clip.
+  Measured clean;
+  std::vector<Measured> defects;
+};
+
+void judge(const testing::InjectedDefect& truth,
+           const std::set<std::string>& kinds,
+           Measured& out) {
+  out.is_local = truth.is_local;
+  for (const ClipProblem& problem : out.result.problems) {
+    if (!kinds.contains(problem.kind)) continue;
+    out.named = true;
+    out.placed =
+        out.placed || (std::abs(problem.frames.first - truth.frames.first) <= 3 &&
+                       std::abs(problem.frames.last - truth.frames.last) <= 3);
+  }
+}
+
+MeasuredClip measure_clip(const fs::path& file) {
+  MeasuredClip out;
+  out.name = file.stem().string();
+  auto read = app::read_motion(file);
+  if (!read) {
+    std::fprintf(stderr, "%s: %s\n", file.c_str(), read.error().message().c_str());
+    return out;
+  }
+  Motion motion = std::move((*read).motion);
+  auto map = retarget::map_body(motion.skeleton);
+  if (!map) {
+    std::fprintf(stderr, "%s: %s\n", file.c_str(), map.error().message().c_str());
+    return out;
+  }
+  put_on_floor(motion, *map);
+  const auto clean = library::make_library_motion(motion);
+  if (!clean) return out;
+  map = retarget::map_body(clean->motion.skeleton);
+  const double begin_s = thread_time_s();
+  out.clean.result = library::measure_quality(*clean, *map, {});
+  out.seconds = thread_time_s() - begin_s;
+  out.clean.tried = true;
+  out.frames = static_cast<int>(motion.poses.size());
+  for (const Expected& one : expected()) {
+    Measured measured;
+    const auto seed =
+        static_cast<unsigned>(hash_of(out.name)) + static_cast<unsigned>(one.defect);
+    const auto injected = testing::inject(clean->motion, one.defect, seed);
+    if (injected) {
+      const auto spoilt = library::make_library_motion(injected->motion);
+      if (spoilt) {
+        const auto own_map = retarget::map_body(spoilt->motion.skeleton);
+        measured.result = library::measure_quality(*spoilt, *own_map, {});
+        measured.tried = true;
+        judge(*injected, one.kinds, measured);
+      }
+    }
+    out.defects.push_back(std::move(measured));
+  }
+  return out;
+}
+
+void write_figures(const std::string& file, const std::vector<MeasuredClip>& clips) {
+  std::ofstream out(file);
+  out << "clip,defect,main_kind,named,placed,figure,value,joint\n";
+  const auto write =
+      [&](const MeasuredClip& clip, std::string_view defect, const Measured& measured) {
+        for (const ClipFigure& figure : measured.result.figures) {
+          out << clip.name << ',' << defect << ',' << measured.result.main_kind << ','
+              << measured.named << ',' << measured.placed << ',' << figure.name << ','
+              << figure.value << ',' << figure.joint << '\n';
+        }
+      };
+  for (const MeasuredClip& clip : clips) {
+    if (clip.clean.tried) write(clip, "clean", clip.clean);
+    for (std::size_t k = 0; k < clip.defects.size(); ++k) {
+      if (clip.defects[k].tried) {
+        write(clip, name(expected()[k].defect), clip.defects[k]);
+      }
+    }
+  }
+}
+
+void print_clean(const std::vector<MeasuredClip>& clips) {
+  int warned = 0;
+  int tried = 0;
+  long frames = 0;
+  double seconds = 0.0;
+  std::map<std::string, int> kinds;
+  for (const MeasuredClip& clip : clips) {
+    if (!clip.clean.tried) continue;
+    ++tried;
+    frames += clip.frames;
+    seconds += clip.seconds;
+    if (clip.clean.result.quality == Verdict::kPass) continue;
+    ++warned;
+    std::set<std::string> of_clip;
+    for (const auto& problem : clip.clean.result.problems) of_clip.insert(problem.kind);
+    for (const std::string& kind : of_clip) ++kinds[kind];
+  }
+  std::printf("%d clips, %ld frames; %.0f frames per second and core\n",
+              tried,
+              frames,
+              static_cast<double>(frames) / seconds);
+  std::printf("warned: %d (%.1f %%):", warned, 100.0 * warned / std::max(1, tried));
+  for (const auto& [kind, count] : kinds) std::printf(" %s %d", kind.c_str(), count);
+  std::printf("\n");
+}
+
+struct Share {
+  int yes = 0;
+  int all = 0;
+  void add(bool is) {
+    yes += is ? 1 : 0;
+    ++all;
+  }
+  [[nodiscard]] double value() const { return all > 0 ? 1.0 * yes / all : 0.0; }
+};
+
+void print_defects(const std::vector<MeasuredClip>& clips) {
+  std::printf("%-26s %6s %7s %7s %7s %7s\n",
+              "defect",
+              "clips",
+              "warned",
+              "recall",
+              "kind",
+              "frames");
+  Share all_kinds;
+  for (std::size_t k = 0; k < expected().size(); ++k) {
+    const Expected& one = expected()[k];
+    Share warned;
+    Share recall;
+    Share kind;
+    Share frames;
+    for (const MeasuredClip& clip : clips) {
+      if (clip.defects.size() <= k || !clip.defects[k].tried) continue;
+      const Measured& measured = clip.defects[k];
+      // Without two flights nothing is known about the rate.
+      if (one.defect == Defect::kDoubleRate) {
+        const auto& figures = clip.clean.result.figures;
+        const auto flights = std::find_if(
+            figures.begin(), figures.end(), [](auto& f) { return f.name == "flights"; });
+        if (flights->value < 2.0) continue;
+      }
+      const bool is_warned = measured.result.quality != Verdict::kPass;
+      warned.add(is_warned);
+      recall.add(measured.named);
+      if (is_warned) kind.add(one.kinds.contains(measured.result.main_kind));
+      if (measured.named && measured.is_local) frames.add(measured.placed);
+    }
+    all_kinds.yes += kind.yes;
+    all_kinds.all += kind.all;
+    std::printf("%-26s %6d %7.3f %7.3f %7.3f %7.3f%s\n",
+                std::string(name(one.defect)).c_str(),
+                recall.all,
+                warned.value(),
+                recall.value(),
+                kind.value(),
+                frames.value(),
+                one.bar > 0.0 && recall.value() < one.bar ? "  short of its bar" : "");
+  }
+  std::printf("precision of kind, all defects: %.3f\n", all_kinds.value());
+}
+
+}  // namespace
+}  // namespace marey
+
+int main(int argc, char** argv) {
+  using namespace marey;
+  std::string folder;
+  std::string half = "held";
+  std::string figures;
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = argv[k];
+    if (word == "--half" && k + 1 < argc) {
+      half = argv[++k];
+    } else if (word == "--figures" && k + 1 < argc) {
+      figures = argv[++k];
+    } else {
+      folder = word;
+    }
+  }
+  if (folder.empty()) {
+    std::fprintf(stderr, "use: measure_quality FOLDER [--half tuning|held|all]\n");
+    return 2;
+  }
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string ending = entry.path().extension().string();
+    if (ending != ".bvh" && ending != ".amc") continue;
+    const bool tuned = is_tuned_on(entry.path().stem().string());
+    if (half == "all" || tuned == (half == "tuning")) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  std::vector<MeasuredClip> clips(files.size());
+  in_parallel(files.size(), 2, [&](std::size_t k) { clips[k] = measure_clip(files[k]); });
+  if (!figures.empty()) write_figures(figures, clips);
+  print_clean(clips);
+  print_defects(clips);
+  return 0;
+}

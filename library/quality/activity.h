@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "library/quality/found_figure.h"
+#include "library/quality/quality_frames.h"
+
+namespace marey::library {
+
+/// Measures the activity of a motion; no verdict follows from it: "sparc",
+/// "still_share" and "tpose_share".
+///
+/// - sparc: spectral arc length of the speed of hips and hands, smooth motion is near 0:
+///   minus the integral over [0, f_c] of sqrt((1 / f_c)^2 + (dV/df)^2), V the amplitude
+///   spectrum over its first value, f_c the highest frequency up to 10 Hz at which V is
+///   0.05 or more. Mean over windows of 4 s and the three joints. (Balasubramanian,
+///   Melendez-Calderon, Roby-Brami, Burdet 2015, "On the analysis of movement
+///   smoothness".)
+/// - still_share: share of frames in which every joint is slower than 5 cm/s.
+/// - tpose_share: share of frames in which all limb bones are within 15 degrees of their
+///   direction in the T-pose, relative to the hips.
+///
+/// Linear in frames.
+[[nodiscard]] std::array<FoundFigure, 3> measure_activity(const QualityFrames& frames,
+                                                          const retarget::BodyMap& map);
+
+}  // namespace marey::library
