@@ -214,7 +214,9 @@ Result<EditState> apply_filter(const FilterOp& op,
   mix_motion(state.motion, *weights, state, context.op.groups, out.motion);
   if (op.keep_contacts) hold_filtered_feet(state, impacts, weights->frames, out, report);
   report.figures.emplace_back("feet_moved_mm", 1e3 * feet_moved_m(state, out));
-  mark_displaced(out, state.motion, weights->frames, context.index);
+  report.figures.emplace_back(
+      "displaced_mm",
+      1e3 * mark_displaced(out, state.motion, weights->frames, context.index));
   return out;
 }
 

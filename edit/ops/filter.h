@@ -22,9 +22,9 @@ namespace marey::edit {
 /// GROUP_removed_rms_mm, GROUP_removed_max_mm and GROUP_removed_max_s: what was taken
 /// away from the places of its joints, relative to the joint that carries the group; for
 /// the root root_noise_mm and places in the world. Also impacts, feet_moved_mm (bearing
-/// joints in contacts), unreachable_frames. Findings: fewer than 20 frames or a group
-/// without any movement, which are left as they are. Errors (bad input): an order other
-/// than 2 and 3; a cut-off that is not between 0 and half the rate; those of
+/// joints in contacts), unreachable_frames, displaced_mm. Findings: fewer than 20 frames
+/// or a group without any movement, which are left as they are. Errors (bad input): an
+/// order other than 2 and 3; a cut-off that is not between 0 and half the rate; those of
 /// resolve_span().
 [[nodiscard]] Result<EditState> apply_filter(const FilterOp& op,
                                              const OpContext& context,

@@ -280,7 +280,9 @@ Result<EditState> apply_path(const PathOp& op,
   report_path(old, *made, *span, state, report);
   report_legs(planted, state.motion, out.motion, report);
   const FrameRange touched{span->first, state.frame_count() - 1};
-  mark_displaced(out, state.motion, touched, context.index, true);
+  report.figures.emplace_back(
+      "displaced_mm",
+      1e3 * mark_displaced(out, state.motion, touched, context.index, true));
   return out;
 }
 

@@ -22,7 +22,8 @@ namespace marey::edit {
 /// frames after it follow rigidly. Linear in frames.
 ///
 /// Figures: length_m, new_length_m, turn_deg (end against start), turn_rate_deg_per_s
-/// (the largest while both feet bear), unreachable_frames, root_sunk_mm. Findings: a turn
+/// (the largest while both feet bear), unreachable_frames, root_sunk_mm,
+/// displaced_mm (largest displacement of a joint, relative to the root). Findings: a turn
 /// rate above 60 deg/s while both feet bear; legs that do not reach; constraints that
 /// last while the body travels, or spaces that cannot be turned. Errors (bad input):
 /// groups, blend_s (no meaning here); points together with turn or length; points closer

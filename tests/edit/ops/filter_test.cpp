@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "edit/ops/filter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -135,6 +136,27 @@ TEST(ApplyFilter, BringsANoisyWalkNearerToTheTruth) {
     plant_feet(*made);
     EXPECT_LT(error_m(made->motion, truth), 0.75 * error_m(source.motion, truth)) << seed;
   }
+}
+
+TEST(ApplyFilter, ReportsTheLargestDisplacementOfAJoint) {
+  const EditState noisy = noisy_walk(3);
+  OpReport report;
+  const auto filtered = apply_filter({}, {EditOp{}, 0, {}}, noisy, report);
+  ASSERT_TRUE(filtered) << filtered.error().message();
+  double largest_m = 0.0;
+  for (std::size_t t = 0; t < noisy.motion.poses.size(); ++t) {
+    const auto a = world_from_joints(noisy.motion.skeleton, noisy.motion.poses[t]);
+    const auto b = world_from_joints(noisy.motion.skeleton, filtered->motion.poses[t]);
+    for (std::size_t j = 0; j < a.size(); ++j) {
+      largest_m = std::max(largest_m, glm::distance(a[j].translation, b[j].translation));
+    }
+  }
+  double reported_mm = -1.0;
+  for (const auto& [name, value] : report.figures) {
+    if (name == "displaced_mm") reported_mm = value;
+  }
+  EXPECT_GT(largest_m, 0.001);
+  EXPECT_NEAR(reported_mm, 1e3 * largest_m, 1e-6);
 }
 
 TEST(ApplyFilter, FeetThatStandStillStayWhereTheyStood) {
