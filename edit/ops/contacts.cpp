@@ -4,14 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "edit/state/apply_contact_edits.h"
 #include "edit/state/check_op_keys.h"
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include "core/base/format_text.h"
+#include "core/pose.h"
+#include "retarget/contacts/detect_contacts.h"
+#include "retarget/feet/leg_placement.h"
 
 namespace marey::edit {
 namespace {
+
+constexpr double kDriftToMm = 1e3;
+/// Larger drifts than those of feet that slide or roll during a contact.
+constexpr double kMaxDrift_mm = 50.0;
 
 Status check_contact_edit(const ContactEdit& edit, const EditState& state) {
   const double end_s = state.duration_s() + 0.5 / state.motion.rate.hz;
@@ -35,6 +46,58 @@ Status check_contact_edit(const ContactEdit& edit, const EditState& state) {
   return Done{};
 }
 
+/// Returns the largest horizontal distance of a joint from its place in the first frame.
+double drift_m(const EditState& state, JointIndex joint, const FrameRange& range) {
+  std::vector<RigidTransform> joints(state.motion.skeleton.joints.size());
+  glm::dvec2 start(0.0);
+  double largest_m = 0.0;
+  for (int frame = range.first; frame <= range.last; ++frame) {
+    const Pose& pose = state.motion.poses[static_cast<std::size_t>(frame)];
+    world_from_joints(state.motion.skeleton, pose, joints);
+    const glm::dvec3& place = joints[index(joint)].translation;
+    const glm::dvec2 here(place.x, place.z);
+    if (frame == range.first) start = here;
+    largest_m = std::max(largest_m, glm::distance(here, start));
+  }
+  return largest_m;
+}
+
+/// Reports a contact that an edit has made or changed, but in which the foot moves: to
+/// plant it would pull the leg out of its swing.
+void report_moving_foot(const ContactEdit& edit,
+                        const EditState& state,
+                        OpReport& report) {
+  if (edit.kind == ContactEdit::Kind::kClear) return;
+  const auto side = static_cast<std::size_t>(edit.side);
+  const bool is_heel = edit.part == FootPart::kHeel;
+  const retarget::FootContacts& foot = state.contacts.feet[side];
+  const auto toes = state.map.joint_of[marey::index(retarget::toes_bone(edit.side))];
+  const JointIndex joint = is_heel || !toes ? state.map.leg(edit.side).end : *toes;
+  const double hz = state.motion.rate.hz;
+  // An edit that moves an edge made the contact that has this edge.
+  const double from =
+      (edit.kind == ContactEdit::Kind::kSet ? edit.from_s : edit.to_s) * hz;
+  const double to = edit.to_s * hz;
+  for (const FrameRange& range : is_heel ? foot.heel : foot.ball) {
+    if (range.last < from - 1.0 || range.first > to + 1.0) continue;
+    const double drift_mm = kDriftToMm * drift_m(state, joint, range);
+    if (drift_mm <= kMaxDrift_mm) continue;
+    report.findings.push_back(
+        fair_finding("moving_contact",
+                     "edits",
+                     format_text("the %s %s moves by %.0f mm in its contact from %.3f to "
+                                 "%.3f s",
+                                 edit.side == 0 ? "left" : "right",
+                                 is_heel ? "heel" : "ball",
+                                 drift_mm,
+                                 range.first / hz,
+                                 range.last / hz),
+                     "shorten or clear this contact; plant@1 would hold the foot there")
+            .measured(drift_mm, kMaxDrift_mm, "mm"));
+    return;
+  }
+}
+
 }  // namespace
 
 Result<EditState> apply_contacts(const ContactsOp& op,
@@ -52,6 +115,7 @@ Result<EditState> apply_contacts(const ContactsOp& op,
   } else {
     apply_contact_edits(out, op.edits);
   }
+  for (const ContactEdit& edit : op.edits) report_moving_foot(edit, out, report);
   report.figures.emplace_back("left_stances",
                               static_cast<double>(out.contacts.feet[0].stance.size()));
   report.figures.emplace_back("right_stances",

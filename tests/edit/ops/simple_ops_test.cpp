@@ -285,6 +285,25 @@ TEST(Contacts, AreRemovedFromAClearedSpan) {
   EXPECT_FALSE(out->contacts.feet[1].stance.empty());
 }
 
+TEST(Contacts, ReportsAnEditedContactInWhichTheFootMoves) {
+  const EditState walk = *make_edit_state(testing::synthetic_walk(240, 120.0).motion);
+  const FrameRange stance = walk.contacts.feet[0].stance.front();
+  ContactsOp swing;  // Two seconds of steps.
+  swing.edits = {{ContactEdit::Kind::kSet, 0, FootPart::kHeel, 0.0, 1.9}};
+  OpScene moved{swing};
+  ASSERT_TRUE(moved.run(apply_contacts, walk));
+  EXPECT_TRUE(moved.has_finding("moving_contact"));
+  ContactsOp same;
+  same.edits = {{ContactEdit::Kind::kSet,
+                 0,
+                 FootPart::kHeel,
+                 (stance.first + 2) / 120.0,
+                 (stance.last - 2) / 120.0}};
+  OpScene rests{same};
+  ASSERT_TRUE(rests.run(apply_contacts, walk));
+  EXPECT_FALSE(rests.has_finding("moving_contact"));
+}
+
 TEST(Plant, WithinASpanLeavesTheRestToTheBit) {
   const EditState state = disturbed_walk(9);
   OpScene scene{PlantOp{}};
