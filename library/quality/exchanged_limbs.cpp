@@ -69,7 +69,7 @@ bool is_exchange(const QualityFrames& frames,
 }
 
 void find_swaps(const QualityFrames& frames, const PairOfLimbs& pair, FoundFigure& out) {
-  std::optional<int> begin;
+  int begin = -1;  // None. (An optional makes GCC 12 warn of an uninitialized value.)
   const auto add = [&](int first, int last) {
     out.places.push_back({{first, last}, pair.left, 1.0 + last - first});
     out.value += 1.0 + last - first;
@@ -79,24 +79,24 @@ void find_swaps(const QualityFrames& frames, const PairOfLimbs& pair, FoundFigur
     }
   };
   for (int t = 2; t < frames.count; ++t) {
-    if (begin && t - *begin > kPair_s * frames.hz) {
-      add(*begin, *begin);
-      begin.reset();
+    if (begin >= 0 && t - begin > kPair_s * frames.hz) {
+      add(begin, begin);
+      begin = -1;
     }
     const auto i = static_cast<std::size_t>(t);
     if (!is_exchange(frames, pair, i, false) && !is_exchange(frames, pair, i, true)) {
       continue;
     }
-    if (begin) {
-      add(*begin, t - 1);
-      begin.reset();
+    if (begin >= 0) {
+      add(begin, t - 1);
+      begin = -1;
     } else {
       begin = t;
     }
     // The velocity across an exchange continues nothing.
     ++t;
   }
-  if (begin) add(*begin, *begin);
+  if (begin >= 0) add(begin, begin);
 }
 
 FoundFigure find_backward_toes(const QualityFrames& frames, double warn) {
