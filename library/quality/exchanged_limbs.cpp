@@ -3,7 +3,6 @@
 #include "library/quality/exchanged_limbs.h"
 
 #include <algorithm>
-#include <optional>
 
 #include <glm/geometric.hpp>
 
