@@ -323,7 +323,7 @@ TEST(Cyclify, NamesTheKeyThatIsWrong) {
   op.from = AtFrame{10};
   EXPECT_NE(message(op).find("from"), std::string::npos);
   op.to = AtFrame{5};
-  EXPECT_NE(message(op).find("after from"), std::string::npos);
+  EXPECT_NE(message(op).find("after cycle_from"), std::string::npos);
   op = {};
   op.min_period_s = 20.0;
   EXPECT_NE(message(op).find("20.000"), std::string::npos);

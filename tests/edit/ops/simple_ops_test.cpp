@@ -287,7 +287,7 @@ TEST(Contacts, AreRemovedFromAClearedSpan) {
 
 TEST(Contacts, ReportsAnEditedContactInWhichTheFootMoves) {
   const EditState walk = *make_edit_state(testing::synthetic_walk(240, 120.0).motion);
-  const FrameRange stance = walk.contacts.feet[0].stance.front();
+  const FrameRange stance = walk.contacts.feet[0].heel.front();
   ContactsOp swing;  // Two seconds of steps.
   swing.edits = {{ContactEdit::Kind::kSet, 0, FootPart::kHeel, 0.0, 1.9}};
   OpScene moved{swing};
