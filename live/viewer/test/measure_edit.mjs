@@ -81,11 +81,11 @@ const hook = (page) => page.evaluate(() => {
     }
     return send(message);
   };
-  mareyPage.onPreview = function(parts) {
+  mareyPage.onPreview = function(parts, ...rest) {
     answered = log.sent[log.sent.length - 1];
     if (answered) answered.answer_ms = performance.now();
     log.message = JSON.stringify(parts).length;
-    return onPreview.call(this, parts);
+    return onPreview.call(this, parts, ...rest);
   };
   const {setPreview} = reel;
   reel.setPreview = function(part) {
