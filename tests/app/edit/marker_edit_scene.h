@@ -50,7 +50,7 @@ class MarkerEditFolder {
     put_texts(info.groups, "POINT", "UNITS", {"mm"});
     put_texts(info.groups, "POINT", "X_SCREEN", {"+X"});
     put_texts(info.groups, "POINT", "Y_SCREEN", {"+Z"});
-    put_texts(info.groups, "LAB", "OPERATOR", {"somebody"});
+    put_texts(info.groups, "LAB", "OPERATOR", {"the laboratory"});
     put_events(info);
     auto writer = recordings::C3dWriter::create(folder_ / name, info);
     ASSERT_TRUE(writer) << writer.error().message();
