@@ -15,6 +15,7 @@
 #include "recordings/base/zip_archive.h"
 #include "recordings/motion/npz.h"
 #include "recordings/motion/npz_arrays.h"
+#include "recordings/motion/npz_head.h"
 
 namespace marey::recordings {
 namespace {
@@ -62,60 +63,21 @@ class Reader {
     if (*format != 1) {
       return in_.fail("it is of layout " + std::to_string(*format) + ", marey reads 1");
     }
-    const auto rate = in_.number<double>("rate_hz", "<f8");
-    if (!rate) return rate.error();
-    if (!(*rate >= kMinRateHz && *rate <= kMaxRateHz)) {
-      return in_.fail("rate_hz", "the rate is not between 0.1 and 2000 Hz");
-    }
-    const auto first = in_.number<std::int64_t>("first_frame", "<i8");
-    if (!first) return first.error();
-    constexpr std::int64_t kMaxFirstFrame = 1'000'000'000;
-    if (*first < -kMaxFirstFrame || *first > kMaxFirstFrame) {
-      return in_.fail("first_frame", "the number is not that of a frame");
-    }
-    out_.motion.rate = FrameRate{*rate};
-    out_.motion.first_frame = static_cast<int>(*first);
-    return Done{};
+    return read_npz_rate(in_, out_.motion);
   }
 
   Status skeleton() {
-    const auto count = in_.length("joint_names");
-    if (!count) return count.error();
-    joints_ = *count;
-    if (joints_ == 0 || joints_ > kMaxJoints) {
-      return in_.fail("joint_names", "there are no joints, or too many");
-    }
-    const auto names = in_.texts("joint_names", joints_);
-    const auto bones = in_.texts("human_bones", joints_);
-    const auto parents = in_.array("parents", "<i4", {joints_});
+    std::vector<Joint>& joints = out_.motion.skeleton.joints;
+    if (Status ok = read_npz_joints(in_, out_.motion.skeleton); !ok) return ok;
+    joints_ = joints.size();
     const auto places = in_.reals("rest_translations", {joints_, 3});
     const auto turns = in_.reals("rest_rotations_wxyz", {joints_, 4});
-    if (!names) return names.error();
-    if (!bones) return bones.error();
-    if (!parents) return parents.error();
     if (!places) return places.error();
     if (!turns) return turns.error();
-    std::vector<std::size_t> level(joints_, 1);
     for (std::size_t i = 0; i < joints_; ++i) {
-      Joint joint;
-      joint.name = (*names)[i];
-      joint.bone = human_bone((*bones)[i]);
-      const auto parent = parents->at<std::int32_t>(i);
-      if (i == 0 ? parent != -1 : parent < 0 || std::cmp_greater_equal(parent, i)) {
-        return in_.fail("parents",
-                        "joint " + std::to_string(i) + " has no parent before it");
-      }
-      if (i > 0) {
-        joint.parent = JointIndex{parent};
-        level[i] = level[static_cast<std::size_t>(parent)] + 1;
-      }
-      if (level[i] > kMaxSkeletonDepth) {
-        return in_.fail("parents", "joints are nested too deeply");
-      }
-      if (Status ok = transform(*places, *turns, i, joint.parent_from_joint); !ok) {
+      if (Status ok = transform(*places, *turns, i, joints[i].parent_from_joint); !ok) {
         return ok;
       }
-      out_.motion.skeleton.joints.push_back(std::move(joint));
     }
     return Done{};
   }

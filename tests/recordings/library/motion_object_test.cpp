@@ -151,5 +151,24 @@ TEST(MotionObject, RefusesOtherArchivesAndDamage) {
   EXPECT_GT(refused, 10) << "the checksums find damage";
 }
 
+TEST(MotionObject, RefusesSkeletonsBeyondTheLimits) {
+  LibraryMotion deep;
+  deep.motion.rate = FrameRate{30.0};
+  for (int i = 0; i < 1001; ++i) {
+    Joint joint;
+    joint.name = "j";
+    if (i > 0) joint.parent = JointIndex{i - 1};
+    deep.motion.skeleton.joints.push_back(joint);
+  }
+  const auto nested = parse_motion_object(*motion_object_bytes(deep), "object.npz");
+  ASSERT_FALSE(nested);
+  EXPECT_NE(nested.error().message().find("nested"), std::string::npos);
+  LibraryMotion far = random_motion(1, false);
+  far.motion.skeleton.joints[3].parent_from_joint.translation.x = 2e4;
+  const auto away = parse_motion_object(*motion_object_bytes(far), "object.npz");
+  ASSERT_FALSE(away);
+  EXPECT_NE(away.error().message().find("10 km"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace marey::recordings
