@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/library/list_sources.h"
+#include "app/library/sources/list_sources.h"
 
 #include <algorithm>
 #include <array>

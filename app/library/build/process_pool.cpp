@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/library/process_pool.h"
+#include "app/library/build/process_pool.h"
 
 #include <algorithm>
 #include <array>
