@@ -231,12 +231,26 @@ void AtomicFile::append(std::string_view bytes) {
   if (!stream_) write_errno_ = errno;
 }
 
-Status AtomicFile::commit() {
+int AtomicFile::sync_partial() const {
+  const int fd = ::open(partial_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return errno;
+  // File systems without fsync() report EINVAL.
+  const int error = ::fsync(fd) == 0 || errno == EINVAL ? 0 : errno;
+  ::close(fd);
+  return error;
+}
+
+Status AtomicFile::commit(OnDisk when) {
   MAREY_ASSERT(open_);
   errno = 0;
   stream_.close();
+  int error = 0;
   if (!stream_) {
-    const int error = write_errno_ != 0 ? write_errno_ : errno;
+    error = write_errno_ != 0 ? write_errno_ : errno;
+  } else if (when == OnDisk::kNow) {
+    error = sync_partial();
+  }
+  if (!stream_ || error != 0) {
     discard();
     return disk_error(path_, "the file could not be written to its end", error);
   }
@@ -258,11 +272,11 @@ void visit_partial_files(void (*visit)(const char* path)) noexcept {
   }
 }
 
-Status write_file(const fs::path& path, std::string_view bytes) {
+Status write_file(const fs::path& path, std::string_view bytes, OnDisk when) {
   Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) return file.error();
   file->append(bytes);
-  return file->commit();
+  return file->commit(when);
 }
 
 Result<std::string> read_file(const fs::path& path) {

@@ -11,6 +11,13 @@
 
 namespace marey::recordings {
 
+/// Moment at which a written file is safe from a loss of power. In both cases it survives
+/// the death of the process at any instant.
+enum class OnDisk {
+  kLater,  ///< When the system writes it.
+  kNow,    ///< Before it appears at its path (fsync): some milliseconds.
+};
+
 /// A file that is written next to its final path (PATH.WORD.partial, with a word unique
 /// to this process, so that two programs never write into the same file). commit() moves
 /// it to PATH, complete and at once; without commit(), or after any failure, no file is
@@ -38,12 +45,14 @@ class AtomicFile {
 
   /// Moves the file to its final path. Errors (kDevice): the disk is full or failed, or
   /// the folder has changed meanwhile. Precondition: not committed.
-  [[nodiscard]] Status commit();
+  [[nodiscard]] Status commit(OnDisk when = OnDisk::kLater);
 
  private:
   explicit AtomicFile(std::filesystem::path path);
   void discard();
   void unlock();
+  /// Returns errno; 0: the partial file is on the disk.
+  [[nodiscard]] int sync_partial() const;
   [[nodiscard]] bool open_partial();
 
   std::filesystem::path path_;
@@ -65,7 +74,8 @@ void visit_partial_files(void (*visit)(const char* path)) noexcept;
 /// Writes `bytes` to `path`, replacing the file as a whole or not at all; creates parent
 /// folders. Errors: those of AtomicFile.
 [[nodiscard]] Status write_file(const std::filesystem::path& path,
-                                std::string_view bytes);
+                                std::string_view bytes,
+                                OnDisk when = OnDisk::kLater);
 
 /// Returns the bytes of the file at `path`. Errors: (kBadInput) those of
 /// check_input_file(), no permission, larger than 4 GiB; (kDevice) the disk failed.

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace marey::app {
+
+/// Result of a source: the objects that were made of it, or the reason why there are
+/// none.
+struct SourceOutcome {
+  std::string name;       ///< SourceFile::name.
+  std::string source_id;  ///< Empty: it could not be read.
+  std::string clips_key;  ///< Of the records and features of its clips; empty: none.
+  std::optional<Error> failure;
+  std::vector<std::string> remarks;
+  bool was_made = false;  ///< Objects were made, not found.
+};
+
+/// Returns an outcome as one line of JSON, without its end.
+[[nodiscard]] std::string outcome_text(const SourceOutcome& outcome);
+
+/// Reads a text of outcome_text(). nullopt: it is damaged.
+[[nodiscard]] std::optional<SourceOutcome> parse_outcome(std::string_view text);
+
+}  // namespace marey::app
