@@ -12,6 +12,7 @@
 #include "app/shell/word_list.h"
 #include "core/base/extension.h"
 #include "core/base/input_file.h"
+#include "recordings/library/motion_object.h"
 #include "recordings/motion/asf.h"
 #include "recordings/motion/bvh.h"
 #include "recordings/motion/npz.h"
@@ -50,18 +51,28 @@ Result<RawBody> read_acclaim(const std::filesystem::path& path) {
   raw.motion = std::move(amc->motion);
   raw.has_motion = true;
   raw.ignored_translation_m = amc->ignored_translation_m;
+  raw.rate_is_guessed = amc->rate_is_guessed;
   return raw;
 }
 
-/// Reads the poses alone: sigmas and contacts are not part of a body.
-Result<RawBody> read_npz(const std::filesystem::path& path) {
-  auto npz = recordings::read_npz(path);
-  if (!npz) return npz.error();
+/// Reads poses and uncertainty. Contacts are not part of a body.
+template <class Archive>
+Result<RawBody> body_of(Result<Archive> archive) {
+  if (!archive) return archive.error();
   RawBody raw;
   raw.has_motion = true;
-  raw.motion = std::move(npz->motion);
+  raw.motion = std::move(archive->motion);
+  raw.uncertainty = std::move(archive->uncertainty);
   raw.unit = {1.0, true};
   return raw;
+}
+
+Result<RawBody> read_npz(const std::filesystem::path& path) {
+  constexpr int kLibraryLayout = 2;
+  if (recordings::npz_layout(path) == kLibraryLayout) {
+    return body_of(recordings::read_motion_object(path));
+  }
+  return body_of(recordings::read_npz(path));
 }
 
 Result<RawBody> read_gltf(const std::filesystem::path& path) {

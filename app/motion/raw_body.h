@@ -31,6 +31,9 @@ struct RawBody {
   bool has_motion = false;
   /// Largest translation of a bone relative to its parent that was ignored. [m]
   double ignored_translation_m = 0.0;
+  bool rate_is_guessed = false;  ///< The file states no rate.
+  /// Uncertainty, [frame][joint]; empty: not in the file.
+  std::vector<std::vector<JointUncertainty>> uncertainty;
   std::optional<recordings::SkinnedMesh> mesh;
   retarget::FileUnit unit;
   std::vector<int> node_of_joint;              ///< glTF: as recordings::Character's.

@@ -106,6 +106,9 @@ Status reparent_bones(ReadBody& body) {
   if (!raw.carries_skin.empty()) {
     raw.carries_skin = reordered(raw.carries_skin, made.read_joint, false);
   }
+  for (std::vector<JointUncertainty>& frame : raw.uncertainty) {
+    frame = reordered(frame, made.read_joint, JointUncertainty{});
+  }
   if (raw.mesh) {
     for (recordings::SkinWeights& skin : raw.mesh->skin) {
       for (JointIndex& joint : skin.joints) {

@@ -97,7 +97,9 @@ Result<ReadMotion> read_motion(const BodyFile& file) {
   return ReadMotion{std::move(body->raw.motion),
                     body->raw.ignored_translation_m,
                     std::move(remarks),
-                    body->exchanged};
+                    body->exchanged,
+                    body->raw.rate_is_guessed,
+                    std::move(body->raw.uncertainty)};
 }
 
 }  // namespace marey::app

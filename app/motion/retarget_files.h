@@ -66,6 +66,9 @@ struct ReadMotion {
   double ignored_translation_m = 0.0;
   std::vector<std::string> remarks = {};  ///< ReadBody::remarks().
   retarget::ExchangedSides exchanged = retarget::ExchangedSides::kNone;  ///< ReadBody's.
+  bool rate_is_guessed = false;  ///< The file states no rate.
+  /// Uncertainty, [frame][joint]; empty: not in the file.
+  std::vector<std::vector<JointUncertainty>> uncertainty = {};
 };
 
 /// Returns a remark on ignored bone translation, if it is large enough to be visible.

@@ -90,6 +90,10 @@ struct NpzMotion {
 /// and the motion.
 [[nodiscard]] Result<NpzMotion> read_npz(const std::filesystem::path& path);
 
+/// Returns the number of the layout that an archive states: 1 is the layout of
+/// npz_bytes(), 2 that of motion_object_bytes(). nullopt: not an archive of a motion.
+[[nodiscard]] std::optional<int> npz_layout(const std::filesystem::path& path);
+
 /// Returns the uncertainty alone, [frame][joint]; empty: not in the file. Errors: those
 /// of parse_npz().
 [[nodiscard]] Result<std::vector<std::vector<JointUncertainty>>> read_npz_uncertainty(

@@ -206,6 +206,15 @@ Result<NpzMotion> read_npz(const std::filesystem::path& path) {
   return Reader(path.string()).read(ZipReader::open_file(path));
 }
 
+std::optional<int> npz_layout(const std::filesystem::path& path) {
+  NpzInput in(path.string(), "");
+  if (!in.open(ZipReader::open_file(path))) return std::nullopt;
+  if (!in.has("rotations_wxyz")) return std::nullopt;
+  const auto layout = in.number<std::int64_t>("format", "<i8");
+  if (!layout || *layout < 1 || *layout > 1000) return std::nullopt;
+  return static_cast<int>(*layout);
+}
+
 Result<std::vector<std::vector<JointUncertainty>>> read_npz_uncertainty(
     const std::filesystem::path& path) {
   if (const Status ok = check_npz_file(path); !ok) return ok.error();
