@@ -6,44 +6,17 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <limits>
 
+#include "library/clips/put_on_floor.h"
 #include "library/features/body_features.h"
 #include "library/features/feature_basis.h"
 
 #include "app/motion/retarget_files.h"
 #include "core/base/parallel.h"
-#include "core/base/quantile.h"
 #include "retarget/body/body_map.h"
 
 namespace marey {
 namespace {
-
-// Moves a motion to the floor, as a library's build does: the height of the lower sole is
-// 0 or more in 95 % of the frames.
-void put_on_floor(Motion& motion, const retarget::BodyMap& map) {
-  std::vector<RigidTransform> world(motion.skeleton.joints.size());
-  std::vector<double> soles_m;
-  for (const Pose& pose : motion.poses) {
-    world_from_joints(motion.skeleton, pose, world);
-    double lowest_m = std::numeric_limits<double>::max();
-    for (int side = 0; side < 2; ++side) {
-      const retarget::FootMap& foot = map.feet[static_cast<std::size_t>(side)];
-      const JointIndex ankle = map.leg(side).end;
-      lowest_m =
-          std::min(lowest_m, world[index(ankle)].translation.y - foot.ankle_height_m);
-      const auto toes =
-          map.joint_of[index(side == 0 ? HumanBone::kLeftToes : HumanBone::kRightToes)];
-      if (!toes) continue;
-      lowest_m =
-          std::min(lowest_m, world[index(*toes)].translation.y - foot.ball_height_m);
-    }
-    soles_m.push_back(lowest_m);
-  }
-  if (soles_m.empty()) return;
-  const double floor_m = quantile(soles_m, 0.05);
-  for (Pose& pose : motion.poses) pose.root_in_world.y -= floor_m;
-}
 
 BenchmarkClip read_clip(const std::filesystem::path& file) {
   BenchmarkClip clip{file.stem().string(), {}};
@@ -57,7 +30,7 @@ BenchmarkClip read_clip(const std::filesystem::path& file) {
     std::fprintf(stderr, "%s: %s\n", file.c_str(), map.error().message().c_str());
     std::exit(1);
   }
-  put_on_floor((*read).motion, *map);
+  library::put_on_floor((*read).motion, *map);
   clip.rows = library::body_features((*read).motion, *map).rows;
   return clip;
 }

@@ -23,10 +23,10 @@
 #include <vector>
 
 #include "library/clips/normal_form.h"
+#include "library/clips/put_on_floor.h"
 
 #include "app/motion/retarget_files.h"
 #include "core/base/parallel.h"
-#include "core/base/quantile.h"
 #include "retarget/body/body_map.h"
 #include "tests/support/simulation/injected_defects.h"
 
@@ -75,28 +75,6 @@ std::uint64_t hash_of(const std::string& text) {
 
 bool is_tuned_on(const std::string& clip) {
   return (hash_of(clip) >> 32 & 1) == 0;
-}
-
-// Moves a motion to the floor, as a library's build does.
-void put_on_floor(Motion& motion, const retarget::BodyMap& map) {
-  std::vector<RigidTransform> world(motion.skeleton.joints.size());
-  std::vector<double> soles_m;
-  for (const Pose& pose : motion.poses) {
-    world_from_joints(motion.skeleton, pose, world);
-    double lowest_m = 1e9;
-    for (int side = 0; side < 2; ++side) {
-      const retarget::FootMap& foot = map.feet[static_cast<std::size_t>(side)];
-      const auto at = [&](JointIndex joint) { return world[index(joint)].translation.y; };
-      lowest_m = std::min(lowest_m, at(map.leg(side).end) - foot.ankle_height_m);
-      const auto toes =
-          map.joint_of[index(side == 0 ? HumanBone::kLeftToes : HumanBone::kRightToes)];
-      if (toes) lowest_m = std::min(lowest_m, at(*toes) - foot.ball_height_m);
-    }
-    soles_m.push_back(lowest_m);
-  }
-  if (soles_m.empty()) return;
-  const double floor_m = quantile(soles_m, 0.05);
-  for (Pose& pose : motion.poses) pose.root_in_world.y -= floor_m;
 }
 
 // Processor time of this thread. Other programs do not change it.
@@ -149,7 +127,7 @@ MeasuredClip measure_clip(const fs::path& file) {
     std::fprintf(stderr, "%s: %s\n", file.c_str(), map.error().message().c_str());
     return out;
   }
-  put_on_floor(motion, *map);
+  library::put_on_floor(motion, *map);
   const auto clean = library::make_library_motion(motion);
   if (!clean) return out;
   map = retarget::map_body(clean->motion.skeleton);
