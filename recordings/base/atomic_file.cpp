@@ -240,6 +240,14 @@ int AtomicFile::sync_partial() const {
   return error;
 }
 
+void AtomicFile::overwrite(std::uint64_t offset, std::string_view bytes) {
+  MAREY_ASSERT(open_);
+  if (!stream_) return;
+  stream_.seekp(static_cast<std::streamoff>(offset));
+  append(bytes);
+  stream_.seekp(0, std::ios::end);
+}
+
 Status AtomicFile::commit(OnDisk when) {
   MAREY_ASSERT(open_);
   errno = 0;
