@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -11,6 +12,7 @@
 
 #include <fnmatch.h>
 
+#include "app/library/sources/source_kind.h"
 #include "core/base/extension.h"
 #include "core/base/in_quotes.h"
 
@@ -19,14 +21,48 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Motions of bodies. Markers and takes are solved first: by marey fit and process.
-constexpr std::array<std::string_view, 7> kSourceKinds = {
-    "bvh", "amc", "npz", "glb", "gltf", "vrm", "vrma"};
+constexpr const char* kLibraryFile = "library.toml";
+
+/// Folders next to library.toml that a build writes.
+constexpr std::array<std::string_view, 5> kBuiltFolders = {
+    "objects", "failed", "search", "versions", "shards"};
+
+constexpr std::string_view kSubjectWord = "subject";
 
 bool is_skipped(const LibrarySource& source, const std::string& name) {
   return std::ranges::any_of(source.skip, [&](const std::string& pattern) {
     return fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
   });
+}
+
+bool is_built_folder(const fs::path& folder) {
+  const std::string name = folder.filename().string();
+  std::error_code failed;
+  return std::ranges::find(kBuiltFolders, std::string_view(name)) !=
+             kBuiltFolders.end() &&
+         fs::exists(folder.parent_path() / kLibraryFile, failed);
+}
+
+/// Returns the path of `full` below the folder `above`; nullopt: it is not below it.
+std::optional<fs::path> path_below(const fs::path& full, const fs::path& above) {
+  const fs::path below = full.lexically_relative(above);
+  if (below.empty() || *below.begin() == "..") return std::nullopt;
+  return below;
+}
+
+std::uintmax_t bytes_below(const fs::path& folder) {
+  std::uintmax_t sum = 0;
+  std::error_code failed;
+  const auto options = fs::directory_options::skip_permission_denied;
+  for (fs::recursive_directory_iterator at(folder, options, failed), end;
+       !failed && at != end;
+       at.increment(failed)) {
+    std::error_code unknown;
+    if (!at->is_regular_file(unknown)) continue;
+    const std::uintmax_t size = at->file_size(unknown);
+    if (!unknown) sum += size;
+  }
+  return sum;
 }
 
 /// Collects the files of one source.
@@ -36,98 +72,153 @@ class SourceLister {
                const LibrarySource& source,
                std::size_t index,
                std::set<fs::path>& known,
-               std::vector<SourceFile>& out)
+               SourceListing& out)
       : library_(library), source_(source), index_(index), known_(known), out_(out) {}
 
   /// Returns the number of files that the source has, known ones included.
-  std::size_t list() {
-    const fs::path stated(source_.path);
-    const fs::path root = stated.is_absolute() ? stated : library_ / stated;
+  std::size_t list(const fs::path& root) {
     std::error_code failed;
-    if (fs::is_regular_file(root, failed)) return add(root) ? 1 : 0;
+    if (!fs::is_directory(root, failed)) return add_file(root) ? 1 : 0;
+    if (add_session(root)) return 1;
     std::size_t count = 0;
     const auto options = fs::directory_options::skip_permission_denied;
     for (fs::recursive_directory_iterator at(root, options, failed), end;
          !failed && at != end;
          at.increment(failed)) {
-      const std::string name = at->path().filename().string();
-      if (name.starts_with('.')) {
-        at.disable_recursion_pending();
-        continue;
-      }
+      const fs::path& path = at->path();
       std::error_code unknown;
-      if (at->is_regular_file(unknown) && add(at->path())) ++count;
+      const bool is_folder = at->is_directory(unknown);
+      if (path.filename().string().starts_with('.') ||
+          (is_folder && is_built_folder(path))) {
+        at.disable_recursion_pending();
+      } else if (is_folder && add_session(path)) {
+        at.disable_recursion_pending();
+        ++count;
+      } else if (at->is_regular_file(unknown) && add_file(path)) {
+        ++count;
+      }
     }
     return count;
   }
 
  private:
-  bool add(const fs::path& path) {
-    std::string kind = lower_extension(path);
-    const bool is_read =
-        std::ranges::find(kSourceKinds, std::string_view(kind)) != kSourceKinds.end();
-    if (!is_read || (!source_.kind.empty() && kind != source_.kind)) return false;
-    std::error_code failed;
-    const fs::path full = fs::weakly_canonical(path, failed);
-    const fs::path below =
-        full.lexically_relative(fs::weakly_canonical(library_, failed));
-    const bool is_below = !below.empty() && !below.string().starts_with("..");
-    const std::string name = (is_below ? below : full).generic_string();
-    if (is_skipped(source_, name)) return false;
-    if (!known_.insert(full).second) return true;
-    out_.push_back({path, name, std::move(kind), index_, fs::file_size(path, failed)});
-    return true;
+  [[nodiscard]] bool is_wanted(const std::string& kind) const {
+    return !kind.empty() && (source_.kind.empty() || kind == source_.kind);
   }
 
-  static std::string lower_extension(const fs::path& path) {
-    std::string kind = kind_by_extension(path);
-    if (kind.starts_with('.')) kind.erase(0, 1);
-    return kind;
+  bool add_session(const fs::path& folder) {
+    if (!is_wanted(kSessionKind) || source_kind(folder) != kSessionKind) return false;
+    return add(folder, kSessionKind);
+  }
+
+  bool add_file(const fs::path& path) {
+    const std::string kind = source_kind(path);
+    if (kind.empty()) {
+      const bool is_ours =
+          is_companion_file(path) || path.filename().string() == kLibraryFile;
+      if (!is_ours) ++out_.left_out[kind_by_extension(path)];
+      return false;
+    }
+    if (!is_wanted(kind)) return false;
+    // A session is its folder, as trials lie next to session.toml.
+    if (kind != kSessionKind) return add(path, kind);
+    return add(path.has_parent_path() ? path.parent_path() : fs::path("."), kind);
+  }
+
+  bool add(const fs::path& path, const std::string& kind) {
+    std::error_code failed;
+    const fs::path full = fs::weakly_canonical(path, failed);
+    const auto below = path_below(full, fs::weakly_canonical(library_, failed));
+    const std::string name = below.value_or(full).generic_string();
+    if (is_skipped(source_, name)) return false;
+    if (!known_.insert(full).second) return true;
+    const std::uintmax_t bytes =
+        kind == kSessionKind ? bytes_below(path) : fs::file_size(path, failed);
+    out_.files.push_back({path, name, kind, index_, failed ? 0 : bytes});
+    return true;
   }
 
   const fs::path& library_;
   const LibrarySource& source_;
   std::size_t index_;
   std::set<fs::path>& known_;
-  std::vector<SourceFile>& out_;
+  SourceListing& out_;
 };
+
+/// Returns the name of a source without folders and extension.
+std::string stem_of(const SourceFile& file) {
+  const fs::path name = fs::path(file.name).filename();
+  if (file.kind == kSessionKind) return name.string();
+  fs::path stem = name.stem();
+  // NAME.edit.toml
+  if (file.kind == kRecipeKind) stem = stem.stem();
+  return stem.string();
+}
+
+/// Returns the words of a pattern in a file's name, with or without its extension.
+std::vector<std::pair<std::string, std::string>> words_of_file(
+    const SourceFile& file, const std::string& pattern) {
+  if (pattern.empty()) return {};
+  auto words = words_in_name(stem_of(file), pattern);
+  if (!words.empty()) return words;
+  return words_in_name(fs::path(file.name).filename().string(), pattern);
+}
+
+/// Returns true if `root` is in a folder of the library that its build writes.
+bool is_in_own_folder(const fs::path& library, const fs::path& root) {
+  std::error_code failed;
+  const auto below = path_below(fs::weakly_canonical(root, failed),
+                                fs::weakly_canonical(library, failed));
+  return below && std::ranges::find(kBuiltFolders, below->begin()->string()) !=
+                      kBuiltFolders.end();
+}
 
 }  // namespace
 
-std::string source_kinds() {
-  std::string out;
-  for (const std::string_view kind : kSourceKinds) {
-    out += (out.empty() ? "." : ", .") + std::string(kind);
+std::string SourceListing::left_out_text() const {
+  std::size_t count = 0;
+  std::string kinds;
+  for (const auto& [extension, number] : left_out) {
+    count += number;
+    kinds += (kinds.empty() ? "" : ", ") + std::to_string(number) + " " +
+             (extension.empty() ? "without extension" : extension);
   }
-  return out;
+  if (count == 0) return {};
+  const bool is_one = count == 1;
+  return std::to_string(count) +
+         (is_one ? " file of another kind was" : " files of other kinds were") +
+         " left out: " + kinds;
 }
 
-Result<std::vector<SourceFile>> list_sources(const fs::path& library,
-                                             const LibrarySettings& settings) {
-  std::vector<SourceFile> out;
+Result<SourceListing> list_sources(const fs::path& library,
+                                   const LibrarySettings& settings) {
+  SourceListing out;
   std::set<fs::path> known;
   for (std::size_t i = 0; i < settings.sources.size(); ++i) {
     const LibrarySource& source = settings.sources[i];
     const auto at_source = [&](std::string cause, std::string next) {
       return bad_input(
-          (library / "library.toml").string() + ":" + std::to_string(source.line),
-          std::move(cause),
+          (library / kLibraryFile).string() + ":" + std::to_string(source.line),
+          "the source " + in_quotes(source.path) + " " + std::move(cause),
           std::move(next));
     };
     const fs::path stated(source.path);
+    const fs::path root = stated.is_absolute() ? stated : library / stated;
     std::error_code failed;
-    if (!fs::exists(stated.is_absolute() ? stated : library / stated, failed)) {
-      return at_source("the source " + in_quotes(source.path) + " does not exist",
+    if (!fs::exists(root, failed)) {
+      return at_source("does not exist",
                        "correct the path; it is relative to the library");
     }
-    if (SourceLister(library, source, i, known, out).list() == 0) {
-      return at_source("the source " + in_quotes(source.path) +
-                           " has no file that a "
-                           "library reads",
+    if (is_in_own_folder(library, root)) {
+      return at_source("is a part of the library that its build writes",
+                       "name the files that these motions were made from");
+    }
+    if (SourceLister(library, source, i, known, out).list(root) == 0) {
+      return at_source("has no file that a library reads",
                        "give files of the kinds " + source_kinds());
     }
   }
-  std::ranges::sort(out, {}, &SourceFile::name);
+  std::ranges::sort(out.files, {}, &SourceFile::name);
   return out;
 }
 
@@ -157,6 +248,28 @@ std::vector<std::pair<std::string, std::string>> words_in_name(
     i = next;
   }
   return at == name.size() ? out : std::vector<std::pair<std::string, std::string>>{};
+}
+
+std::string subject_of(const SourceFile& file, const LibrarySource& source) {
+  const bool is_pattern = source.subject.find('{') != std::string::npos;
+  if (!source.subject.empty() && !is_pattern) return source.subject;
+  const std::string& pattern = is_pattern ? source.subject : source.pattern;
+  for (const auto& [word, value] : words_of_file(file, pattern)) {
+    if (word == kSubjectWord) return value;
+  }
+  return {};
+}
+
+std::vector<ClipLabel> labels_of_name(const SourceFile& file,
+                                      const LibrarySource& source,
+                                      double duration_s) {
+  std::vector<ClipLabel> out;
+  for (const auto& [word, value] : words_of_file(file, source.pattern)) {
+    if (word == kSubjectWord || value.empty()) continue;
+    out.push_back({0.0, duration_s, word + ":" + value, "name", 1.0});
+  }
+  std::ranges::sort(out, {}, &ClipLabel::text);
+  return out;
 }
 
 }  // namespace marey::app
