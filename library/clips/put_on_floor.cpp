@@ -13,6 +13,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/base/degrees.h"
 #include "core/base/quantile.h"
 #include "core/skeleton.h"
 #include "retarget/body/body_volume.h"
@@ -24,18 +25,23 @@ namespace marey::library {
 namespace {
 
 constexpr double kFloorShare = 0.05;
-// Cosine of the steepest sole that may stand, 70 degrees: above a foot on its toes, below
-// the feet of a lying body.
-constexpr double kMinLevelSole = 0.342;
+// Of the ball over the ankle, compared with a foot that stands: above a foot that lands
+// on its heel, below the feet of a body that lies on its back.
+constexpr double kMaxRise_rad = 40.0 * kRadiansPerDegree;
 constexpr double kHalfGravity_m_s2 = 0.5 * 9.81;
 constexpr double kHalfSpan_s = 0.1;
+constexpr double kNoHeight_m = std::numeric_limits<double>::max();
 
 // Heights of one foot in one frame.
 struct FootHeights {
   double sole_m = 0.0;
-  double joint_m = 0.0;   // The lower one of ankle and ball.
-  bool is_level = false;  // Not steeper than a foot that stands.
+  double joint_m = 0.0;    // The lower one of ankle and ball.
+  bool may_stand = false;  // Below the hips, and does not point up.
 };
+
+double rise_rad(const glm::dvec3& along) {
+  return std::atan2(along.y, std::hypot(along.x, along.z));
+}
 
 FootHeights heights_of_foot(const retarget::BodyMap& map,
                             std::span<const RigidTransform> world,
@@ -43,18 +49,20 @@ FootHeights heights_of_foot(const retarget::BodyMap& map,
   const retarget::FootMap& foot = map.feet[static_cast<std::size_t>(side)];
   const JointIndex joint = map.leg(side).end;
   const RigidTransform& ankle = world[index(joint)];
-  const glm::dquat world_from_t_pose =
-      ankle.rotation * glm::conjugate(map.joints[index(joint)].t_pose_from_joint);
   const auto toes =
       map.joint_of[index(side == 0 ? HumanBone::kLeftToes : HumanBone::kRightToes)];
-  const double ball_y =
-      toes ? world[index(*toes)].translation.y
-           : (ankle.translation + world_from_t_pose * foot.ball_from_ankle_in_t_pose).y;
+  glm::dvec3 along = ankle.rotation *
+                     glm::conjugate(map.joints[index(joint)].t_pose_from_joint) *
+                     foot.ball_from_ankle_in_t_pose;
+  if (toes) along = world[index(*toes)].translation - ankle.translation;
+  const double ball_y = ankle.translation.y + along.y;
   FootHeights out;
   out.sole_m =
       std::min(ankle.translation.y - foot.ankle_height_m, ball_y - foot.ball_height_m);
   out.joint_m = std::min(ankle.translation.y, ball_y);
-  out.is_level = (world_from_t_pose * glm::dvec3(0.0, 1.0, 0.0)).y > kMinLevelSole;
+  out.may_stand =
+      rise_rad(along) - rise_rad(foot.ball_from_ankle_in_t_pose) < kMaxRise_rad &&
+      ankle.translation.y < world[index(map.hips())].translation.y;
   return out;
 }
 
@@ -107,15 +115,13 @@ std::vector<double> soles_that_bear_m(const Motion& motion,
   for (std::size_t t = 0; t < motion.poses.size(); ++t) {
     if (supported[t] == 0 || (stands[0][t] == 0 && stands[1][t] == 0)) continue;
     world_from_joints(motion.skeleton, motion.poses[t], world);
-    double lower_m = std::numeric_limits<double>::max();
-    bool bears = false;
+    double lower_m = kNoHeight_m;
     for (int side = 0; side < 2; ++side) {
+      if (stands[static_cast<std::size_t>(side)][t] == 0) continue;
       const FootHeights foot = heights_of_foot(map, world, side);
-      if (!foot.is_level) continue;
-      lower_m = std::min(lower_m, foot.sole_m);
-      bears = bears || stands[static_cast<std::size_t>(side)][t] != 0;
+      if (foot.may_stand) lower_m = std::min(lower_m, foot.sole_m);
     }
-    if (bears) out.push_back(lower_m);
+    if (lower_m < kNoHeight_m) out.push_back(lower_m);
   }
   return out;
 }
@@ -124,10 +130,15 @@ std::vector<double> soles_that_bear_m(const Motion& motion,
 double lowest_surface_m(const retarget::BodyMap& map,
                         const retarget::BodyVolume& volume,
                         std::span<const RigidTransform> world) {
-  double lowest_m = std::numeric_limits<double>::max();
-  for (const auto& capsule : volume.parts) {
+  double lowest_m = kNoHeight_m;
+  for (std::size_t part = 0; part < volume.parts.size(); ++part) {
+    const auto& capsule = volume.parts[part];
     if (!capsule) continue;
     for (const double end : {-1.0, 1.0}) {
+      // Below the ankle is the foot.
+      const bool is_shank = part == index(retarget::VolumePart::kLeftShank) ||
+                            part == index(retarget::VolumePart::kRightShank);
+      if (is_shank && end > 0.0) continue;
       const glm::dvec3 p =
           world[index(capsule->joint)] * retarget::axis_point_in_joint(*capsule, end);
       lowest_m = std::min(lowest_m, p.y - capsule->radius_m);
@@ -135,7 +146,7 @@ double lowest_surface_m(const retarget::BodyMap& map,
   }
   for (int side = 0; side < 2; ++side) {
     const FootHeights foot = heights_of_foot(map, world, side);
-    lowest_m = std::min(lowest_m, foot.is_level ? foot.sole_m : foot.joint_m);
+    lowest_m = std::min(lowest_m, foot.may_stand ? foot.sole_m : foot.joint_m);
   }
   return lowest_m;
 }
