@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/library/build/build_inputs.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "core/base/extension.h"
+#include "core/base/format_text.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/base/sha256.h"
+#include "recordings/library/clip_record_file.h"
+#include "recordings/library/library_file.h"
+#include "recordings/library/library_paths.h"
+
+namespace marey::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Versions of the stages: a change of their results needs a new one.
+constexpr int kMotionStage = 1;
+constexpr int kClipsStage = 1;
+
+/// Returns the labels of a library in the order of their names.
+std::vector<fs::path> label_files(const fs::path& library) {
+  std::vector<fs::path> out;
+  std::error_code failed;
+  for (fs::directory_iterator at(recordings::LibraryPaths(library).labels(), failed), end;
+       !failed && at != end;
+       at.increment(failed)) {
+    if (kind_by_extension(at->path()) == ".csv") out.push_back(at->path());
+  }
+  std::ranges::sort(out);
+  return out;
+}
+
+/// A number that every value of double has another text for.
+std::string exact_text(double value) {
+  return format_text("%.17g", value);
+}
+
+}  // namespace
+
+Result<BuildInputs> read_build_inputs(const fs::path& library) {
+  std::error_code failed;
+  BuildInputs out;
+  out.library = fs::absolute(library, failed).lexically_normal();
+  const fs::path file = recordings::LibraryPaths(out.library).settings();
+  if (!fs::exists(file, failed)) {
+    return bad_input(library.string(),
+                     "there is no library.toml in this folder",
+                     "make a library of a folder with motions: marey library add LIB "
+                     "FOLDER --licence SPDX --source TEXT");
+  }
+  const auto text = recordings::read_file(file);
+  if (!text) return text.error();
+  auto settings = recordings::parse_library(*text, file.string());
+  if (!settings) return settings.error();
+  out.settings = std::move(*settings);
+  std::string digests = recordings::sha256(*text);
+  for (const fs::path& labels : label_files(out.library)) {
+    const auto digest = recordings::sha256_of_file(labels);
+    if (!digest) return digest.error();
+    digests += labels.filename().string() + *digest;
+  }
+  out.digest = recordings::sha256(digests);
+  return out;
+}
+
+std::optional<double> BuildInputs::table_rate_hz(const SourceFile& file) const {
+  (void)file;
+  return std::nullopt;
+}
+
+SourceKeys keys_of(const BuildInputs& inputs,
+                   const SourceFile& file,
+                   const std::string& source_id) {
+  const LibrarySettings& settings = inputs.settings;
+  const LibrarySource& source = settings.sources[file.source];
+  std::string reading = "kind " + file.kind;
+  reading += " clean " + std::to_string(static_cast<int>(settings.clean));
+  if (source.rate_hz) reading += " option " + exact_text(*source.rate_hz);
+  if (const auto rate_hz = inputs.table_rate_hz(file)) {
+    reading += " table " + exact_text(*rate_hz);
+  }
+  std::string clips = "segment " + std::to_string(static_cast<int>(settings.segment));
+  for (const QualityLimit& limit : settings.limits) {
+    clips +=
+        " " + limit.figure + " " + exact_text(limit.warn) + " " + exact_text(limit.fail);
+  }
+  SourceKeys out;
+  out.motion = recordings::stage_key(source_id, "motion", kMotionStage, reading, "");
+  out.clips = recordings::stage_key(source_id, "clips", kClipsStage, clips, out.motion);
+  return out;
+}
+
+}  // namespace marey::app

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/library/sources/list_sources.h"
+#include "core/base/result.h"
+#include "core/library/library_settings.h"
+
+namespace marey::app {
+
+/// Everything that a build reads, except the content of its sources.
+struct BuildInputs {
+  std::filesystem::path library;  ///< Absolute.
+  LibrarySettings settings;
+  /// SHA-256 of library.toml, the index tables and the labels.
+  std::string digest;
+
+  /// Returns the rate that an index table states for a source; nullopt: none.
+  [[nodiscard]] std::optional<double> table_rate_hz(const SourceFile& file) const;
+};
+
+/// Reads library.toml and its tables and labels. Errors (kBadInput): no library in this
+/// folder; those of their readers.
+[[nodiscard]] Result<BuildInputs> read_build_inputs(const std::filesystem::path& library);
+
+/// Keys of the two stages of a source. Neither contains a path, a time or the machine.
+struct SourceKeys {
+  std::string motion;  ///< Reading and solving: SourceStage, and motions of its bodies.
+  std::string clips;   ///< Clips of its bodies: records, and rows of features.
+};
+
+[[nodiscard]] SourceKeys keys_of(const BuildInputs& inputs,
+                                 const SourceFile& file,
+                                 const std::string& source_id);
+
+}  // namespace marey::app

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "app/library/build/build_inputs.h"
+#include "app/library/build/merge_library.h"
+#include "app/library/build/source_outcome.h"
+#include "app/shell/console.h"
+#include "core/base/result.h"
+
+namespace marey::app {
+
+/// Result of a build, for people and programs.
+struct BuiltLibrary {
+  MergedLibrary merged;
+  std::size_t sources = 0;
+  std::size_t made = 0;              ///< Sources whose objects were made by this build.
+  std::vector<Error> failures;       ///< Sources that gave nothing, by name.
+  std::vector<std::string> remarks;  ///< Of readers and of the merge.
+};
+
+/// Makes the objects of sources in child processes. Returns the outcomes, in the order of
+/// the sources; nullopt: the user stopped it. With a cache, sources that have not changed
+/// are not read. Outcomes do not depend on `jobs`.
+[[nodiscard]] std::optional<std::vector<SourceOutcome>> import_sources(
+    const BuildInputs& inputs,
+    const std::vector<SourceFile>& sources,
+    int jobs,
+    Console& console);
+
+/// Imports all sources and merges them. Damaged objects are made again. Errors: the
+/// inputs'; those of merge_library(); the user stopped it.
+/// Precondition: this process holds the library's lock.
+[[nodiscard]] Result<BuiltLibrary> build_library(const BuildInputs& inputs,
+                                                 int jobs,
+                                                 Console& console);
+
+/// Merges outcomes, and makes damaged objects again. Precondition: as build_library().
+[[nodiscard]] Result<BuiltLibrary> finish_library(const BuildInputs& inputs,
+                                                  const std::vector<SourceFile>& sources,
+                                                  std::vector<SourceOutcome> outcomes,
+                                                  Console& console);
+
+}  // namespace marey::app

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/library/build/collect_records.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+#include "library/features/feature_span.h"
+
+#include "core/base/format_text.h"
+#include "core/base/in_quotes.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/library/clip_record_file.h"
+#include "recordings/library/source_stage.h"
+
+namespace marey::app {
+namespace {
+
+namespace fs = std::filesystem;
+using recordings::object_path;
+
+std::optional<std::vector<ClipRecord>> read_clips(const BuildInputs& inputs,
+                                                  const std::string& key) {
+  const auto text = recordings::read_file(inputs.library / object_path(key, ".json"));
+  if (!text) return std::nullopt;
+  return recordings::parse_clip_records(*text);
+}
+
+/// Returns the name of a clip for people: that of its file, its body, its number.
+std::string clip_name(const SourceFile& file,
+                      const ClipRecord& record,
+                      std::size_t number,
+                      std::size_t count) {
+  std::string out = fs::path(file.name).stem().string();
+  if (!record.body.empty()) out += "#" + record.body;
+  if (count > 1) out += format_text(".%03zu", number + 1);
+  return out;
+}
+
+Provenance provenance_of(const LibrarySource& source,
+                         const SourceFile& file,
+                         const Provenance& found) {
+  Provenance out = found;
+  out.path = file.name;
+  out.kind = file.kind;
+  out.licence = source.licence.empty() ? "unknown" : source.licence;
+  out.origin = source.origin;
+  out.commit = source.commit;
+  out.attribution = source.attribution;
+  const std::string stated = subject_of(file, source);
+  if (!stated.empty()) out.subject = stated;
+  return out;
+}
+
+/// Counts the records of each body: numbers of segments are counted in their body.
+std::map<std::string, std::size_t> count_bodies(const std::vector<ClipRecord>& records) {
+  std::map<std::string, std::size_t> out;
+  for (const ClipRecord& record : records) ++out[record.body];
+  return out;
+}
+
+void add_records(const BuildInputs& inputs,
+                 const SourceFile& file,
+                 const SourceOutcome& outcome,
+                 std::vector<ClipRecord> records,
+                 CollectedRecords& out) {
+  const LibrarySource& source = inputs.settings.sources[file.source];
+  const auto counts = count_bodies(records);
+  std::map<std::string, std::size_t> numbers;
+  std::size_t row = 0;
+  for (ClipRecord& record : records) {
+    record.name = clip_name(file, record, numbers[record.body]++, counts.at(record.body));
+    record.provenance = provenance_of(source, file, record.provenance);
+    for (ClipLabel& label : labels_of_name(file, source, record.duration_s())) {
+      record.labels.push_back(std::move(label));
+    }
+    out.feature_keys.push_back(outcome.clips_key);
+    out.first_rows.push_back(row);
+    row += static_cast<std::size_t>(
+        library::feature_span(record.first_frame, record.last_frame, record.rate_hz)
+            .count);
+    out.records.push_back(std::move(record));
+  }
+}
+
+}  // namespace
+
+CollectedRecords collect_records(const BuildInputs& inputs,
+                                 const std::vector<SourceFile>& sources,
+                                 const std::vector<SourceOutcome>& outcomes) {
+  CollectedRecords out;
+  std::map<std::string, std::size_t> first_with;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const SourceOutcome& outcome = outcomes[i];
+    if (outcome.clips_key.empty()) continue;
+    const auto [known, is_new] = first_with.emplace(outcome.source_id, i);
+    if (!is_new) {
+      const SourceFile& first = sources[known->second];
+      std::string remark = sources[i].name + " has the same bytes as " + first.name +
+                           ", and gave no other clip";
+      const auto& settings = inputs.settings.sources;
+      if (settings[sources[i].source].licence != settings[first.source].licence) {
+        remark += "; the licence of " + first.name + " counts";
+      }
+      out.remarks.push_back(std::move(remark));
+      continue;
+    }
+    auto records = read_clips(inputs, outcome.clips_key);
+    if (!records) {
+      out.damaged.push_back(i);
+      continue;
+    }
+    add_records(inputs, sources[i], outcome, std::move(*records), out);
+  }
+  return out;
+}
+
+}  // namespace marey::app

@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/library/build/import_source.h"
+
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "library/clips/normal_form.h"
+#include "library/clips/put_on_floor.h"
+
+#include "app/library/build/make_clips.h"
+#include "app/library/sources/read_source.h"
+#include "recordings/base/atomic_file.h"
+#include "recordings/library/clip_record_file.h"
+#include "recordings/library/motion_object.h"
+#include "recordings/library/source_stage.h"
+#include "retarget/body/body_map.h"
+
+namespace marey::app {
+namespace {
+
+namespace fs = std::filesystem;
+using recordings::object_path;
+using recordings::OnDisk;
+using recordings::SourceStage;
+
+bool has_object(const BuildInputs& inputs,
+                const std::string& key,
+                std::string_view extension) {
+  std::error_code failed;
+  return fs::is_regular_file(inputs.library / object_path(key, extension), failed);
+}
+
+Status write_object(const BuildInputs& inputs,
+                    const std::string& key,
+                    std::string_view extension,
+                    const std::string& bytes) {
+  return recordings::write_file(
+      inputs.library / object_path(key, extension), bytes, OnDisk::kNow);
+}
+
+/// Removes the source's path from the place of an error, as objects have no paths.
+Error without_path(Error error, const SourceFile& file) {
+  const std::string path = file.path.string();
+  if (error.where.starts_with(path)) error.where.erase(0, path.size());
+  while (error.where.starts_with(':') || error.where.starts_with(' ')) {
+    error.where.erase(0, 1);
+  }
+  return error;
+}
+
+/// Puts the name of the source before the place of an error.
+Error with_name(Error error, const SourceFile& file) {
+  error.where = error.where.empty() ? file.name : file.name + ": " + error.where;
+  return error;
+}
+
+/// Reads the stage if all of its objects exist.
+std::optional<SourceStage> find_stage(const BuildInputs& inputs, const std::string& key) {
+  if (!has_object(inputs, key, ".json")) return std::nullopt;
+  const auto text = recordings::read_file(inputs.library / object_path(key, ".json"));
+  if (!text) return std::nullopt;
+  auto stage = recordings::parse_source_stage(*text);
+  if (!stage) return std::nullopt;
+  for (const ClipRecord& body : stage->bodies) {
+    if (!has_object(inputs, body.object_key, ".npz")) return std::nullopt;
+  }
+  return stage;
+}
+
+/// Makes the motion of one body an object.
+Result<ClipRecord> write_body(const BuildInputs& inputs,
+                              const std::string& motion_key,
+                              const SourceFile& file,
+                              SourceMotion source) {
+  auto clip = library::make_library_motion(source.motion, std::move(source.uncertainty));
+  if (!clip) return without_path(clip.error(), file);
+  const auto map = retarget::map_body(clip->motion.skeleton);
+  if (!map) return without_path(map.error(), file);
+  library::put_on_floor(clip->motion, *map);
+  ClipRecord body;
+  body.body = source.body;
+  body.object_key = recordings::stage_key("", "body", 1, source.body, motion_key);
+  body.first_frame = clip->motion.first_frame;
+  body.last_frame = body.first_frame + static_cast<int>(clip->motion.poses.size()) - 1;
+  body.rate_hz = clip->motion.rate.hz;
+  body.rate_by = source.rates.basis();
+  body.provenance.subject = source.subject;
+  body.figures = std::move(source.figures);
+  body.problems = std::move(source.problems);
+  body.labels = std::move(source.labels);
+  body.events = std::move(source.events);
+  const auto bytes = recordings::motion_object_bytes(*clip);
+  if (!bytes) return without_path(bytes.error(), file);
+  const Status ok = write_object(inputs, body.object_key, ".npz", *bytes);
+  if (!ok) return ok.error();
+  return body;
+}
+
+/// Reads a source and makes the objects of its bodies.
+Result<SourceStage> make_stage(const BuildInputs& inputs,
+                               const SourceFile& file,
+                               const std::string& motion_key) {
+  ReadSourceOptions options;
+  options.clean = inputs.settings.clean;
+  options.table_rate_hz = inputs.table_rate_hz(file);
+  auto motions = read_source(file, inputs.settings.sources[file.source], options);
+  if (!motions) return without_path(motions.error(), file);
+  SourceStage stage;
+  for (SourceMotion& motion : *motions) {
+    stage.remarks.insert(
+        stage.remarks.end(), motion.remarks.begin(), motion.remarks.end());
+    auto body = write_body(inputs, motion_key, file, std::move(motion));
+    if (!body) return body.error();
+    stage.bodies.push_back(std::move(*body));
+  }
+  return stage;
+}
+
+/// Makes the stage's object, also that of a failure which the source's content causes.
+Result<SourceStage> import_stage(const BuildInputs& inputs,
+                                 const SourceFile& file,
+                                 const KnownSource& known,
+                                 const std::string& key) {
+  if (auto found = find_stage(inputs, key)) return std::move(*found);
+  auto stage = make_stage(inputs, file, key);
+  // Neither the result nor the failure is that of the identified content.
+  if (!known.is_current()) return without_path(changed_while_read(file), file);
+  if (!stage) {
+    if (stage.error().code != Errc::kBadInput) return stage.error();
+    SourceStage failed;
+    failed.failure = stage.error();
+    stage = std::move(failed);
+  }
+  const Status ok =
+      write_object(inputs, key, ".json", recordings::source_stage_text(*stage));
+  if (!ok) return ok.error();
+  return stage;
+}
+
+/// Makes the records and features of a source's clips.
+Status import_clips(const BuildInputs& inputs,
+                    const SourceFile& file,
+                    const SourceStage& stage,
+                    const std::string& source_id,
+                    const std::string& key) {
+  const auto clips = make_clips(inputs, file, stage, source_id);
+  if (!clips) return clips.error();
+  if (const Status ok = write_object(inputs, key, ".f32", clips->features); !ok)
+    return ok;
+  // The records last: if they exist, so do the features.
+  return write_object(
+      inputs, key, ".json", recordings::clip_records_text(clips->records));
+}
+
+}  // namespace
+
+std::optional<SourceOutcome> find_outcome(const BuildInputs& inputs,
+                                          const SourceFile& file,
+                                          const std::string& source_id) {
+  const SourceKeys keys = keys_of(inputs, file, source_id);
+  SourceOutcome out;
+  out.name = file.name;
+  out.source_id = source_id;
+  if (has_object(inputs, keys.clips, ".json") && has_object(inputs, keys.clips, ".f32")) {
+    out.clips_key = keys.clips;
+    return out;
+  }
+  const auto stage = find_stage(inputs, keys.motion);
+  if (!stage || !stage->failure) return std::nullopt;
+  out.failure = with_name(*stage->failure, file);
+  return out;
+}
+
+ImportedSource import_source(const BuildInputs& inputs, const SourceFile& file) {
+  ImportedSource out;
+  out.outcome.name = file.name;
+  auto known = know_source(file);
+  if (!known) {
+    out.outcome.failure = with_name(without_path(known.error(), file), file);
+    return out;
+  }
+  out.outcome.source_id = known->id;
+  out.known = *known;
+  if (auto found = find_outcome(inputs, file, known->id)) {
+    out.outcome = std::move(*found);
+    return out;
+  }
+  const SourceKeys keys = keys_of(inputs, file, known->id);
+  out.outcome.was_made = true;
+  const auto stage = import_stage(inputs, file, *known, keys.motion);
+  if (!stage || stage->failure) {
+    out.outcome.failure = with_name(stage ? *stage->failure : stage.error(), file);
+    return out;
+  }
+  out.outcome.remarks = stage->remarks;
+  const Status ok = import_clips(inputs, file, *stage, known->id, keys.clips);
+  if (!ok) {
+    out.outcome.failure = with_name(ok.error(), file);
+    return out;
+  }
+  out.outcome.clips_key = keys.clips;
+  return out;
+}
+
+}  // namespace marey::app
