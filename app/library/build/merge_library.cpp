@@ -50,27 +50,20 @@ std::optional<MergedLibrary> find_merged(const BuildInputs& inputs,
                            failed)) {
     return std::nullopt;
   }
-  const auto counts = recordings::count_in_index(paths.index());
-  if (!counts) return std::nullopt;
   MergedLibrary out;
-  out.version = head.version;
-  out.version_name = head.version_name;
+  out.head = head;
   out.was_current = true;
-  out.counts = {
-      counts->clips, counts->warned, counts->failed, counts->duplicates, counts->seconds};
   return out;
 }
 
-LibraryCounts count(const std::vector<ClipRecord>& records) {
-  LibraryCounts out;
-  out.clips = records.size();
+void count_clips(const std::vector<ClipRecord>& records, IndexHead& out) {
+  out.clips = static_cast<std::int64_t>(records.size());
   for (const ClipRecord& record : records) {
     if (record.quality == Verdict::kWarn) ++out.warned;
     if (record.quality == Verdict::kFail) ++out.failed;
     if (!record.duplicate_of.empty()) ++out.duplicates;
     out.seconds += record.duration_s();
   }
-  return out;
 }
 
 /// Writes the version of these records, unless it is the last one.
@@ -83,17 +76,17 @@ Status write_version(const BuildInputs& inputs,
     lines.push_back(recordings::version_line(record));
   }
   const std::string text = recordings::version_text(std::move(lines));
-  out.version_name = recordings::sha256(text);
+  out.head.version_name = recordings::sha256(text);
   const auto versions = recordings::list_versions(inputs.library);
   if (!versions.empty()) {
     const auto last = recordings::read_file(versions.back().path);
-    out.version = versions.back().number;
+    out.head.version = versions.back().number;
     if (last && *last == text) return Done{};
   }
-  ++out.version;
+  ++out.head.version;
   out.is_new_version = true;
   return recordings::write_file(
-      recordings::version_path(inputs.library, out.version), text, OnDisk::kNow);
+      recordings::version_path(inputs.library, out.head.version), text, OnDisk::kNow);
 }
 
 /// Removes the objects of a source's clips, so that they are made again.
@@ -154,17 +147,22 @@ Result<MergedLibrary> merge_library(const BuildInputs& inputs,
     return damaged_objects();
   }
   MergedLibrary out;
+  out.head = head;
   out.remarks = std::move(clips.remarks);
+  std::error_code failed;
+  if (!old && fs::exists(paths.index(), failed)) {
+    out.remarks.push_back(old.error().where + ": " + old.error().cause +
+                          "; the index was made again");
+  }
   const Status related = relate_clips(inputs, head.search, clips.records, out.remarks);
   if (!related) return related.error();
+  count_clips(clips.records, out.head);
   if (const Status ok = write_failed_sources(inputs, outcomes); !ok) return ok.error();
   if (const Status ok = write_version(inputs, clips.records, out); !ok) return ok.error();
-  head.version = out.version;
-  head.version_name = out.version_name;
-  const Status ok = recordings::write_library_index(paths.index(), clips.records, head);
+  const Status ok =
+      recordings::write_library_index(paths.index(), clips.records, out.head);
   if (!ok) return ok.error();
   remove_old_search_rows(inputs, head.search, before.search);
-  out.counts = count(clips.records);
   return out;
 }
 

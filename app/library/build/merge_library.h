@@ -9,25 +9,14 @@
 #include "app/library/build/build_inputs.h"
 #include "app/library/build/source_outcome.h"
 #include "core/base/result.h"
-#include "core/library/clip_record.h"
+#include "recordings/library/index_head.h"
 
 namespace marey::app {
 
-/// Counts of a library, for messages.
-struct LibraryCounts {
-  std::size_t clips = 0;
-  std::size_t warned = 0;
-  std::size_t failed = 0;
-  std::size_t duplicates = 0;
-  double seconds = 0.0;
-};
-
 struct MergedLibrary {
-  int version = 0;           ///< Number of the current version.
-  std::string version_name;  ///< Its SHA-256.
+  recordings::IndexHead head;  ///< Of the index.
   bool is_new_version = false;
   bool was_current = false;  ///< Nothing changed, and nothing was written.
-  LibraryCounts counts;
   std::vector<std::string> remarks;
 };
 

@@ -1,0 +1,263 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/library/build/build_commands.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "app/library/build/build_inputs.h"
+#include "app/library/build/build_library.h"
+#include "app/library/build/library_json.h"
+#include "app/library/build/library_lock.h"
+#include "app/library/build/shard_plan.h"
+#include "app/library/sources/list_sources.h"
+#include "app/shell/option_checks.h"
+#include "app/shell/stop_signal.h"
+#include "core/base/format_text.h"
+#include "recordings/library/library_paths.h"
+
+namespace marey::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr long kMaxJobs = 1024;
+constexpr long kMaxShards = 9999;
+/// Failed sources that are printed; all are in failed/.
+constexpr std::size_t kMaxPrinted = 10;
+
+int jobs_of(const LibraryBuildArguments& args) {
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  return args.jobs > 0 ? args.jobs : std::max(cores, 1);
+}
+
+Exit report_build(const Result<BuiltLibrary>& built,
+                  const LibraryBuildArguments& args,
+                  Console& console) {
+  if (!built) {
+    if (stop_wanted()) {
+      console.say("stopped; marey library build goes on from here");
+      return Exit::kInterrupted;
+    }
+    return console.fail(built.error());
+  }
+  if (args.json) std::printf("%s\n", library_json(*built).dump(2).c_str());
+  for (const std::string& remark : built->remarks) console.warn(remark);
+  for (std::size_t i = 0; i < std::min(built->failures.size(), kMaxPrinted); ++i) {
+    console.fail(built->failures[i]);
+  }
+  console.say(library_sentence(*built));
+  if (built->failures.empty()) return Exit::kOk;
+  const std::string folder = (recordings::LibraryPaths(args.library).failed()).string();
+  return console.fail(
+      {Errc::kQuality,
+       args.library.string(),
+       format_text(
+           "%zu of %zu sources gave no clip", built->failures.size(), built->sources),
+       "read " + folder + ", where each has its cause"});
+}
+
+/// Prints a plan that exists already.
+Exit say_planned(const BuildInputs& inputs, const ShardPlan& plan, Console& console) {
+  const std::size_t open = unfinished_shards(inputs.library, plan).size();
+  console.say(
+      format_text("the work is divided into %d shards already; %zu of them are "
+                  "not finished",
+                  plan.shards,
+                  open));
+  return Exit::kOk;
+}
+
+std::string list_of(const std::vector<int>& numbers) {
+  constexpr std::size_t kMaxListed = 20;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(numbers.size(), kMaxListed); ++i) {
+    out += (i == 0 ? "" : ", ") + std::to_string(numbers[i]);
+  }
+  return numbers.size() > kMaxListed ? out + "..." : out;
+}
+
+/// Reads the plan, and checks that nothing it was made from has changed.
+Result<ShardPlan> read_current_plan(const BuildInputs& inputs) {
+  auto plan = read_shard_plan(inputs.library);
+  if (!plan || plan->inputs == inputs.digest) return plan;
+  return bad_input(inputs.library.string(),
+                   "library.toml, a table or labels changed since the work was divided",
+                   "delete the folder shards, then call marey library plan LIB --shards "
+                   "N; finished objects are kept");
+}
+
+Exit work_on(const BuildInputs& inputs,
+             const LibraryBuildArguments& args,
+             Console& console) {
+  const auto plan = read_current_plan(inputs);
+  if (!plan) return console.fail(plan.error());
+  if (args.shard > plan->shards) {
+    return console.fail(bad_usage("--shard",
+                                  format_text("there are only %d shards", plan->shards),
+                                  "give a number from 1 to that"));
+  }
+  const std::vector<int> open = unfinished_shards(inputs.library, *plan);
+  if (std::ranges::find(open, args.shard) == open.end()) {
+    console.say(format_text("shard %d is finished already", args.shard));
+    return Exit::kOk;
+  }
+  const auto sources = read_shard_list(inputs.library, args.shard);
+  if (!sources) return console.fail(sources.error());
+  const auto outcomes = import_sources(inputs, *sources, jobs_of(args), console);
+  if (!outcomes) {
+    console.say("stopped; the same command goes on from here");
+    return Exit::kInterrupted;
+  }
+  const Status ok = write_shard_outcomes(inputs.library, args.shard, *outcomes);
+  if (!ok) return console.fail(ok.error());
+  console.say(format_text("shard %d: %zu sources", args.shard, sources->size()));
+  return Exit::kOk;
+}
+
+/// Reads the outcomes of all shards, in ascending order of the sources' names.
+Status read_all_shards(const BuildInputs& inputs,
+                       const ShardPlan& plan,
+                       std::vector<SourceFile>& sources,
+                       std::vector<SourceOutcome>& outcomes) {
+  std::vector<std::pair<SourceFile, SourceOutcome>> all;
+  for (int shard = 1; shard <= plan.shards; ++shard) {
+    auto files = read_shard_list(inputs.library, shard);
+    if (!files) return files.error();
+    auto results = read_shard_outcomes(inputs.library, shard);
+    if (!results) return results.error();
+    if (files->size() != results->size()) {
+      return bad_input(format_text("shard %d", shard),
+                       "its outcomes belong to another list of sources",
+                       "delete the folder shards, then plan again");
+    }
+    for (std::size_t i = 0; i < files->size(); ++i) {
+      all.emplace_back(std::move((*files)[i]), std::move((*results)[i]));
+    }
+  }
+  std::ranges::sort(all, {}, [](const auto& one) { return one.first.name; });
+  for (auto& [file, outcome] : all) {
+    sources.push_back(std::move(file));
+    outcomes.push_back(std::move(outcome));
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Exit run_library_build(const LibraryBuildArguments& args, Console& console) {
+  catch_stop_signals();
+  const auto inputs = read_build_inputs(args.library);
+  if (!inputs) return console.fail(inputs.error());
+  const auto lock = LibraryLock::take(inputs->library);
+  if (!lock) return console.fail(lock.error());
+  return report_build(build_library(*inputs, jobs_of(args), console), args, console);
+}
+
+Exit run_library_plan(const LibraryBuildArguments& args, Console& console) {
+  const auto inputs = read_build_inputs(args.library);
+  if (!inputs) return console.fail(inputs.error());
+  const auto lock = LibraryLock::take(inputs->library);
+  if (!lock) return console.fail(lock.error());
+  if (args.slurm) {
+    std::error_code failed;
+    const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+    std::printf(
+        "%s",
+        slurm_script(failed ? "marey" : program.string(), inputs->library, args.shards)
+            .c_str());
+  }
+  const auto old = read_shard_plan(inputs->library);
+  if (old && old->inputs == inputs->digest && old->shards == args.shards) {
+    return say_planned(*inputs, *old, console);
+  }
+  if (old && old->inputs == inputs->digest) {
+    return console.fail(
+        bad_input(inputs->library.string(),
+                  format_text("the work is divided into %d shards already", old->shards),
+                  "go on with these, or delete the folder shards"));
+  }
+  const auto listing = list_sources(inputs->library, inputs->settings);
+  if (!listing) return console.fail(listing.error());
+  remove_shards(inputs->library);
+  const auto lists = divide_sources(listing->files, args.shards);
+  const Status ok =
+      write_shard_plan(inputs->library, {inputs->digest, args.shards}, lists);
+  if (!ok) return console.fail(ok.error());
+  console.say(
+      format_text("%zu sources in %d shards; next: marey library work LIB "
+                  "--shard N for each, then marey library merge LIB",
+                  listing->files.size(),
+                  args.shards));
+  return Exit::kOk;
+}
+
+Exit run_library_work(const LibraryBuildArguments& args, Console& console) {
+  catch_stop_signals();
+  const auto inputs = read_build_inputs(args.library);
+  if (!inputs) return console.fail(inputs.error());
+  return work_on(*inputs, args, console);
+}
+
+Exit run_library_merge(const LibraryBuildArguments& args, Console& console) {
+  const auto inputs = read_build_inputs(args.library);
+  if (!inputs) return console.fail(inputs.error());
+  const auto lock = LibraryLock::take(inputs->library);
+  if (!lock) return console.fail(lock.error());
+  const auto plan = read_current_plan(*inputs);
+  if (!plan) return console.fail(plan.error());
+  const std::vector<int> open = unfinished_shards(inputs->library, *plan);
+  if (!open.empty()) {
+    return console.fail(bad_input(
+        inputs->library.string(),
+        format_text("%zu of %d shards are not finished: ", open.size(), plan->shards) +
+            list_of(open),
+        "run marey library work LIB --shard N for these"));
+  }
+  std::vector<SourceFile> sources;
+  std::vector<SourceOutcome> outcomes;
+  const Status ok = read_all_shards(*inputs, *plan, sources, outcomes);
+  if (!ok) return console.fail(ok.error());
+  const auto built = finish_library(*inputs, sources, std::move(outcomes), console);
+  if (built) remove_shards(inputs->library);
+  return report_build(built, args, console);
+}
+
+void add_library_build_commands(CLI::App& library,
+                                LibraryBuildArguments& args,
+                                std::function<Exit(Console&)>& chosen) {
+  const auto add = [&](const char* name, const char* help, auto run) {
+    CLI::App* command = library.add_subcommand(name, help);
+    command->add_option("LIB", args.library, "folder of the library")->required();
+    command->callback([&args, &chosen, run] {
+      chosen = [&args, run](Console& console) { return run(args, console); };
+    });
+    return command;
+  };
+  const auto add_jobs = [&](CLI::App* command) {
+    command->add_option("--jobs", args.jobs, "processes; all cores if absent")
+        ->check(whole_between(1, kMaxJobs));
+  };
+  CLI::App* build = add("build", "Bring a library up to date", run_library_build);
+  add_jobs(build);
+  build->add_flag("--json", args.json, "print the result as JSON");
+  CLI::App* plan = add("plan", "Divide the work on a library", run_library_plan);
+  plan->add_option("--shards", args.shards, "number of parts")
+      ->required()
+      ->check(whole_between(1, kMaxShards));
+  plan->add_flag("--slurm", args.slurm, "print a script that runs the plan with Slurm");
+  CLI::App* work = add("work", "Do one part of a divided work", run_library_work);
+  work->add_option("--shard", args.shard, "number of the part, from 1")
+      ->required()
+      ->check(whole_between(1, kMaxShards));
+  add_jobs(work);
+  CLI::App* merge = add("merge", "Finish a divided work", run_library_merge);
+  merge->add_flag("--json", args.json, "print the result as JSON");
+}
+
+}  // namespace marey::app
