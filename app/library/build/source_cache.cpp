@@ -7,7 +7,6 @@
 #include <utility>
 
 #include <nlohmann/json.hpp>
-#include <sys/stat.h>
 
 #include "recordings/base/atomic_file.h"
 #include "recordings/library/library_paths.h"
@@ -17,9 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using CacheJson = nlohmann::ordered_json;
+using recordings::FileStat;
+using recordings::stat_file;
 
-constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-constexpr std::int64_t kSettled_ns = 2 * kNanosecondsPerSecond;
+constexpr std::int64_t kSettled_ns = 2'000'000'000;
 
 std::string cache_key(const fs::path& path) {
   std::error_code failed;
@@ -59,14 +59,6 @@ std::int64_t now_ns() {
 }
 
 }  // namespace
-
-std::optional<FileStat> stat_file(const fs::path& path) {
-  struct stat state {};
-  if (::stat(path.c_str(), &state) != 0) return std::nullopt;
-  return FileStat{static_cast<std::uint64_t>(state.st_size),
-                  state.st_mtim.tv_sec * kNanosecondsPerSecond + state.st_mtim.tv_nsec,
-                  static_cast<std::uint64_t>(state.st_ino)};
-}
 
 bool KnownSource::is_current() const {
   return std::ranges::all_of(

@@ -2,36 +2,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/library/sources/list_sources.h"
 #include "app/library/sources/source_id.h"
 #include "core/base/result.h"
+#include "recordings/base/file_stat.h"
 
 namespace marey::app {
-
-/// State of a file, as the system reports it without reading the file.
-struct FileStat {
-  std::uint64_t bytes = 0;
-  std::int64_t changed_ns = 0;  ///< Time of the last change.
-  std::uint64_t inode = 0;
-
-  bool operator==(const FileStat&) const = default;
-};
-
-/// Returns the state of the file at `path`; nullopt: there is none.
-[[nodiscard]] std::optional<FileStat> stat_file(const std::filesystem::path& path);
 
 /// An identified source, and the states of its files at that time.
 struct KnownSource {
   std::string id;
-  std::vector<std::pair<std::string, FileStat>> files;
+  std::vector<std::pair<std::string, recordings::FileStat>> files;
   std::vector<std::string> absent;  ///< SourceParts::absent.
 
   /// Returns true if no file changed, vanished or appeared since. Cost: a stat per file.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <ctime>
 #include <string>
@@ -11,12 +12,12 @@
 #include <vector>
 
 #include <nlohmann/json.hpp>
-#include <sys/stat.h>
 
 #include "app/shell/option_checks.h"
 #include "core/base/format_text.h"
 #include "core/base/printable.h"
 #include "recordings/base/atomic_file.h"
+#include "recordings/base/file_stat.h"
 #include "recordings/base/sha256.h"
 #include "recordings/library/index_head.h"
 #include "recordings/library/library_paths.h"
