@@ -55,10 +55,12 @@ Result<ReadVersion> read_version(const fs::path& library, int number) {
 
 /// Returns the day and time at which a file was written.
 std::string written_at(const fs::path& file) {
-  struct stat state {};
-  if (::stat(file.c_str(), &state) != 0) return "unknown";
+  constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+  const auto state = recordings::stat_file(file);
+  if (!state) return "unknown";
+  const std::time_t seconds = state->changed_ns / kNanosecondsPerSecond;
   std::tm utc{};
-  gmtime_r(&state.st_mtim.tv_sec, &utc);
+  gmtime_r(&seconds, &utc);
   std::array<char, 32> text{};
   std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
   return text.data();
