@@ -10,6 +10,7 @@
 
 #include "edit/markers/render_markers.h"
 
+#include "app/edit/marker_edit_events.h"
 #include "core/base/extension.h"
 #include "core/base/printable.h"
 #include "recordings/base/sha256.h"
@@ -41,18 +42,6 @@ bool has_markers_below(const EditRecipe& recipe,
   if (!inner) return false;
   return has_markers_below(
       *inner, {file->parent_path(), file->string(), false}, depth + 1);
-}
-
-/// Returns an event's text, without the subject.
-std::string text_of_event(const recordings::MarkerEvent& event) {
-  const bool has_side = event.context == "Left" || event.context == "Right";
-  const std::string side = event.context == "Left" ? "left" : "right";
-  if (has_side && event.label == "Foot Strike") return side + ".strike";
-  if (has_side && event.label == "Foot Off") return side + ".toe_off";
-  std::string out = event.context;
-  if (!out.empty() && !event.label.empty()) out += " ";
-  out += event.label;
-  return out.empty() ? "event" : printable(out);
 }
 
 /// Adds the events of a file as annotations.

@@ -110,36 +110,46 @@ bool is_any_seen(const MarkerTracks& tracks) {
 
 }  // namespace
 
+Result<MarkerTrial> make_marker_trial(const fs::path& path,
+                                      std::string name,
+                                      recordings::MarkerFile file,
+                                      Console& console) {
+  for (const std::string& note : file.notes) {
+    console.warn(path.string() + ": " + note);
+  }
+  if (!is_any_seen(file.tracks)) {
+    return bad_input(path.string(),
+                     "no marker is seen in any frame",
+                     "leave the file out, or check it in the program that wrote it");
+  }
+  MarkerTrial trial;
+  trial.name = std::move(name);
+  trial.path = path;
+  trial.repair.name = path.filename().string();
+  trial.repair.as_read = std::move(file.tracks);
+  file.tracks = {};
+  remove_subject_prefix(trial, console);
+  trial.file = std::move(file);
+  return trial;
+}
+
 Result<std::vector<MarkerTrial>> read_trials(std::span<const fs::path> paths,
                                              const recordings::MarkerReadOptions& options,
                                              const fs::path& out,
                                              Console& console) {
   const std::vector<std::string> names = names_of(paths);
   if (const Status ok = check_paths(paths, names, out); !ok) return ok.error();
-  std::vector<MarkerTrial> trials(paths.size());
+  std::vector<MarkerTrial> trials;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    MarkerTrial& trial = trials[i];
-    trial.name = names[i];
-    trial.path = paths[i];
     auto read = recordings::read_markers(paths[i], options);
     if (!read) return read.error();
-    for (const std::string& note : read->notes) {
-      console.warn(paths[i].string() + ": " + note);
-    }
-    if (!is_any_seen(read->tracks)) {
-      return bad_input(paths[i].string(),
-                       "no marker is seen in any frame",
-                       "leave the file out, or check it in the program that wrote it");
-    }
+    auto trial = make_marker_trial(paths[i], names[i], *std::move(read), console);
+    if (!trial) return trial.error();
     if (names[i] != paths[i].stem().string()) {
       console.say(paths[i].string() + ": its results are in " +
                   (out / names[i]).string());
     }
-    trial.repair.name = paths[i].filename().string();
-    trial.repair.as_read = std::move(read->tracks);
-    read->tracks = {};
-    remove_subject_prefix(trial, console);
-    trial.file = std::move(*read);
+    trials.push_back(*std::move(trial));
   }
   return trials;
 }

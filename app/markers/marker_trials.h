@@ -32,6 +32,13 @@ struct MarkerTrial {
   std::size_t samples_empty = 0;
 };
 
+/// Makes a trial of a file that was read, and prints its notes. Errors (kBadInput): no
+/// marker is seen in any frame.
+[[nodiscard]] Result<MarkerTrial> make_marker_trial(const std::filesystem::path& path,
+                                                    std::string name,
+                                                    recordings::MarkerFile file,
+                                                    Console& console);
+
 /// Reads every file and prints its notes. A trial's name is its file's stem; the second
 /// file with the same stem, in the order given, is STEM-2.
 ///

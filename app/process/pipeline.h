@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/pages/report.h"
@@ -70,12 +71,19 @@ class Pipeline {
   /// Retargets every solved motion to every avatar. Writes AVATAR.bvh, and AVATAR.glb and
   /// AVATAR.vrma where the avatar has a mesh and the bones of VRM's humanoid.
   [[nodiscard]] Status retarget();
-  /// Writes OUT/report.json and OUT/report.html.
+  /// Completes the report: figures of each solved motion, and the findings on them.
+  [[nodiscard]] Status assess();
+  /// Calls assess() and writes OUT/report.json and OUT/report.html.
   [[nodiscard]] Status write_report();
 
   /// Its findings are the problems with which the run was completed: missing inputs, and
   /// results of insufficient quality (both poor), and warnings (fair).
   [[nodiscard]] const Report& report() const { return report_; }
+
+  /// Returns the motions of solve() with the names of their trials, in the session's
+  /// order. Valid until the next call of solve().
+  [[nodiscard]] std::vector<std::pair<std::string, const EstimatedMotion*>> motions()
+      const;
 
  private:
   struct SolvedMotion {
@@ -122,5 +130,8 @@ class Pipeline {
   std::set<std::string> poor_trials_;  ///< Names of trials with poor findings.
   Report report_;
 };
+
+/// Runs the stages up to `stage`, without the avatars' motions and the report.
+[[nodiscard]] Status run_to(Stage stage, Pipeline& pipeline);
 
 }  // namespace marey::app

@@ -126,8 +126,7 @@ Status Pipeline::add_trial_findings() {
   return Done{};
 }
 
-Status Pipeline::write_report() {
-  const Stopwatch watch;
+Status Pipeline::assess() {
   report_.trials.clear();
   for (const SolvedMotion& motion : motions_) {
     const auto detections = unshrunk_detections_of(*motion.trial);
@@ -147,7 +146,20 @@ Status Pipeline::write_report() {
     }
     report_.recorded_s += max_s;
   }
-  if (const Status ok = add_trial_findings(); !ok) return ok;
+  return add_trial_findings();
+}
+
+std::vector<std::pair<std::string, const EstimatedMotion*>> Pipeline::motions() const {
+  std::vector<std::pair<std::string, const EstimatedMotion*>> all;
+  for (const SolvedMotion& motion : motions_) {
+    all.emplace_back(motion.trial->name, &motion.solved.estimate);
+  }
+  return all;
+}
+
+Status Pipeline::write_report() {
+  const Stopwatch watch;
+  if (const Status ok = assess(); !ok) return ok;
   std::error_code ignored;
   report_.has_calibration_page =
       std::filesystem::exists(options_.out / "calibration.html", ignored);
@@ -158,6 +170,17 @@ Status Pipeline::write_report() {
     return ok;
   }
   return recordings::write_file(options_.out / "report.html", report_html(report_));
+}
+
+Status run_to(Stage stage, Pipeline& pipeline) {
+  if (const Status ok = pipeline.track(); !ok) return ok;
+  if (stage == Stage::kTrack) return Done{};
+  if (stage != Stage::kSolve) {
+    if (const Status ok = pipeline.calibrate(); !ok) return ok;
+    if (stage == Stage::kCalibrate) return Done{};
+  }
+  if (const Status ok = pipeline.fit(); !ok) return ok;
+  return pipeline.solve();
 }
 
 }  // namespace marey::app

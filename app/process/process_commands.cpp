@@ -23,14 +23,8 @@ namespace marey::app {
 namespace {
 
 Status run_stages(Stage stage, Pipeline& pipeline) {
-  if (const Status ok = pipeline.track(); !ok) return ok;
-  if (stage == Stage::kTrack) return Done{};
-  if (stage != Stage::kSolve) {
-    if (const Status ok = pipeline.calibrate(); !ok) return ok;
-    if (stage == Stage::kCalibrate) return Done{};
-  }
-  if (const Status ok = pipeline.fit(); !ok) return ok;
-  if (const Status ok = pipeline.solve(); !ok) return ok;
+  if (const Status ok = run_to(stage, pipeline); !ok) return ok;
+  if (stage == Stage::kTrack || stage == Stage::kCalibrate) return Done{};
   if (const Status ok = pipeline.retarget(); !ok) return ok;
   return pipeline.write_report();
 }

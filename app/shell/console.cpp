@@ -66,7 +66,7 @@ void Console::show(const std::string& label,
                    int done,
                    int total,
                    Clock::time_point start) {
-  if (style_ == ProgressStyle::kQuiet) return;
+  if (style_ == ProgressStyle::kQuiet || style_ == ProgressStyle::kKept) return;
   const Clock::time_point now = Clock::now();
   const bool finished = total != kUnknownTotal && done >= total;
   const bool bar_style = style_ == ProgressStyle::kAuto && terminal_;
@@ -97,7 +97,7 @@ void Console::clear_bar() {
 
 void Console::say(const std::string& text) {
   const std::scoped_lock lock(mutex_);
-  if (style_ == ProgressStyle::kQuiet) return;
+  if (style_ == ProgressStyle::kQuiet || style_ == ProgressStyle::kKept) return;
   clear_bar();
   if (style_ == ProgressStyle::kJson) {
     print_json({{"message", text}});
@@ -106,8 +106,17 @@ void Console::say(const std::string& text) {
   }
 }
 
+std::vector<std::string> Console::kept_warnings() const {
+  const std::scoped_lock lock(mutex_);
+  return kept_;
+}
+
 void Console::warn(const std::string& text) {
   const std::scoped_lock lock(mutex_);
+  if (style_ == ProgressStyle::kKept) {
+    kept_.push_back(as_called(text));
+    return;
+  }
   clear_bar();
   if (style_ == ProgressStyle::kJson) {
     print_json({{"warning", text}});
@@ -118,6 +127,7 @@ void Console::warn(const std::string& text) {
 
 Exit Console::fail(const Error& error) {
   const std::scoped_lock lock(mutex_);
+  if (style_ == ProgressStyle::kKept) return exit_for(error.code);
   clear_bar();
   if (style_ == ProgressStyle::kJson) {
     print_json({{"error", error.message()}, {"exit_code", exit_for(error.code)}});

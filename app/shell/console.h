@@ -5,6 +5,7 @@
 #include <chrono>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "app/shell/exit_codes.h"
 #include "app/shell/program_name.h"
@@ -17,6 +18,7 @@ enum class ProgressStyle {
   kAuto,   ///< A bar on a terminal, lines otherwise.
   kJson,   ///< One JSON object a line; warnings and errors too.
   kQuiet,  ///< None.
+  kKept,   ///< Nothing is printed: kept_warnings() returns the warnings.
 };
 
 /// Writes messages and progress to standard error. Standard output is for data.
@@ -30,6 +32,8 @@ class Console {
   [[nodiscard]] Progress stage(const std::string& label);
   void say(const std::string& text);
   void warn(const std::string& text);
+  /// Returns the warnings of ProgressStyle::kKept, in their order.
+  [[nodiscard]] std::vector<std::string> kept_warnings() const;
   /// Prints the error and returns its exit code.
   Exit fail(const Error& error);
   /// Returns `text` with the program's name as it was called.
@@ -45,7 +49,8 @@ class Console {
   bool terminal_ = false;
   bool bar_shown_ = false;
   Clock::time_point last_shown_{};
-  std::mutex mutex_;
+  std::vector<std::string> kept_;
+  mutable std::mutex mutex_;
 };
 
 }  // namespace marey::app

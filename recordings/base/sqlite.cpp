@@ -3,10 +3,10 @@
 #include "recordings/base/sqlite.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <system_error>
 
 #include "core/base/input_file.h"
+#include "recordings/base/temporary_folder.h"
 
 namespace marey::recordings {
 namespace {
@@ -66,27 +66,6 @@ void limit_to(std::uintmax_t bytes, sqlite3* database) {
     sqlite3_db_config(database, setting, 0, nullptr);
   }
 }
-
-/// A new folder that is removed with its content. Its path is empty if it could not be
-/// created.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::error_code problem;
-    std::string name = (fs::temp_directory_path(problem) / "marey-XXXXXX").string();
-    if (!problem && mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// Copies a database and its log during possible writes: the file itself changes only
 /// when the log is merged into it; then both are copied again.

@@ -8,8 +8,15 @@
 #include <cstdio>
 #include <utility>
 
+#include "app/library/sources/clean_motion.h"
+#include "app/library/sources/marker_source.h"
+#include "app/library/sources/recipe_source.h"
+#include "app/library/sources/session_source.h"
+#include "app/library/sources/source_kind.h"
+#include "app/motion/error_of_file.h"
 #include "app/motion/read_body.h"
 #include "app/motion/retarget_files.h"
+#include "recordings/base/motion_limits.h"
 
 namespace marey::app {
 namespace {
@@ -44,13 +51,38 @@ Result<std::vector<SourceMotion>> read_motion_file(const SourceFile& file) {
   return all;
 }
 
+bool holds_markers(const SourceFile& file) {
+  return file.kind == "c3d" || file.kind == "trc";
+}
+
+/// Returns true if the motions of a source are solved from markers or tags.
+bool is_solved(const SourceFile& file) {
+  return holds_markers(file) || file.kind == kSessionKind;
+}
+
+Result<std::vector<SourceMotion>> read_by_kind(const SourceFile& file,
+                                               std::optional<double> rate_hz,
+                                               const std::filesystem::path& scratch) {
+  if (file.kind == kSessionKind) return read_session_source(file.path, scratch);
+  if (file.kind == kRecipeKind) return read_recipe_source(file.path, {rate_hz});
+  if (holds_markers(file)) return read_marker_source(file.path, {rate_hz});
+  return read_motion_file(file);
+}
+
 /// Sets the rate that counts, and adds a problem where stated rates differ.
 void set_rate(const LibrarySource& source,
               const ReadSourceOptions& options,
               SourceMotion& out) {
   out.rates.option_hz = source.rate_hz;
   out.rates.table_hz = options.table_rate_hz;
+  out.rates.table_evidence = options.table_evidence;
   out.motion.rate.hz = out.rates.used_hz();
+  // Times in the source count by its own rate.
+  const double longer = out.rates.file_hz / out.rates.used_hz();
+  for (ClipLabel& label : out.labels) {
+    label.start_s *= longer;
+    label.end_s *= longer;
+  }
   if (const auto differs = out.rates.contradiction()) {
     out.remarks.push_back(*differs);
     const int last = static_cast<int>(out.motion.poses.size()) - 1;
@@ -67,7 +99,10 @@ std::optional<std::string> SourceRates::contradiction() const {
   };
   std::vector<std::pair<std::string, double>> stated;
   if (option_hz) stated.emplace_back("library.toml", *option_hz);
-  if (table_hz) stated.emplace_back("the index table", *table_hz);
+  if (table_hz) {
+    const std::string place = table_evidence.empty() ? "" : " (" + table_evidence + ")";
+    stated.emplace_back("the index table" + place, *table_hz);
+  }
   if (!file_is_guessed) stated.emplace_back("the file", file_hz);
   for (std::size_t i = 1; i < stated.size(); ++i) {
     if (!differ(stated[0].second, stated[i].second)) continue;
@@ -80,14 +115,22 @@ std::optional<std::string> SourceRates::contradiction() const {
 Result<std::vector<SourceMotion>> read_source(const SourceFile& file,
                                               const LibrarySource& source,
                                               const ReadSourceOptions& options) {
-  if (options.clean != CleanBy::kNone) {
+  const std::optional<double> stated_hz =
+      source.rate_hz ? source.rate_hz : options.table_rate_hz;
+  if (stated_hz &&
+      !(*stated_hz >= recordings::kMinRateHz && *stated_hz <= recordings::kMaxRateHz)) {
     return bad_input(file.path.string(),
-                     "motions of this kind cannot be cleaned",
-                     "set clean = \"none\" in library.toml");
+                     hz_text(*stated_hz) + " is no frame rate",
+                     "state a rate from 0.1 to 2000 Hz in library.toml or its table");
   }
-  auto all = read_motion_file(file);
+  auto all = read_by_kind(file, stated_hz, options.scratch);
   if (!all) return all;
-  for (SourceMotion& motion : *all) set_rate(source, options, motion);
+  for (SourceMotion& motion : *all) {
+    set_rate(source, options, motion);
+    const Status ok = clean_motion(options.clean, is_solved(file), motion);
+    if (!ok) return of_file(file.path, ok.error());
+    std::ranges::sort(motion.figures, {}, &ClipFigure::name);
+  }
   return all;
 }
 
