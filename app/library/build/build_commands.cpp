@@ -148,6 +148,34 @@ Status read_all_shards(const BuildInputs& inputs,
   return Done{};
 }
 
+/// Adds `marey library add`.
+void add_add_command(CLI::App& library,
+                     LibraryBuildArguments& args,
+                     std::function<Exit(Console&)>& chosen) {
+  CLI::App* add = library.add_subcommand("add", "Add files or folders to a library");
+  AddSourcesArguments& added = args.added;
+  add->add_option("LIB", args.library, "folder of the library; made if absent")
+      ->required();
+  add->add_option("PATH", added.paths, "files and folders with motions")->required();
+  add->add_option("--licence", added.licence, "SPDX expression, unknown, or a file")
+      ->required();
+  add->add_option("--source", added.origin, "repository, address or person")->required();
+  add->add_option("--commit", added.commit, "version of the source");
+  add->add_option("--attribution", added.attribution, "whom to name");
+  add->add_option("--kind", added.kind, "only files of this kind, such as bvh");
+  add->add_option("--rate", added.rate_hz, "rate in Hz, instead of the files'");
+  add->add_option("--index", added.index, "table of rates and descriptions");
+  add->add_option("--subject", added.subject, "person, or a pattern with {subject}");
+  add->add_option("--pattern", added.pattern, "pattern of names: each {word} is a label");
+  add->add_option("--skip", added.skip, "patterns of files that are left out");
+  add->add_option("--jobs", args.jobs, "processes; all cores if absent")
+      ->check(whole_between(1, kMaxJobs));
+  add->add_flag("--json", args.json, "print the result as JSON");
+  add->callback([&] {
+    chosen = [&args](Console& console) { return run_library_add(args, console); };
+  });
+}
+
 }  // namespace
 
 Exit run_library_build(const LibraryBuildArguments& args, Console& console) {
@@ -157,6 +185,13 @@ Exit run_library_build(const LibraryBuildArguments& args, Console& console) {
   const auto lock = LibraryLock::take(inputs->library);
   if (!lock) return console.fail(lock.error());
   return report_build(build_library(*inputs, jobs_of(args), console), args, console);
+}
+
+Exit run_library_add(const LibraryBuildArguments& args, Console& console) {
+  AddSourcesArguments added = args.added;
+  added.library = args.library;
+  if (const Status ok = add_sources(added); !ok) return console.fail(ok.error());
+  return run_library_build(args, console);
 }
 
 Exit run_library_plan(const LibraryBuildArguments& args, Console& console) {
@@ -246,6 +281,7 @@ void add_library_build_commands(CLI::App& library,
   CLI::App* build = add("build", "Bring a library up to date", run_library_build);
   add_jobs(build);
   build->add_flag("--json", args.json, "print the result as JSON");
+  add_add_command(library, args, chosen);
   CLI::App* plan = add("plan", "Divide the work on a library", run_library_plan);
   plan->add_option("--shards", args.shards, "number of parts")
       ->required()

@@ -7,12 +7,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/library/sources/add_sources.h"
 #include "app/shell/console.h"
 #include "app/shell/exit_codes.h"
 
 namespace marey::app {
 
-/// Arguments of `marey library build`, `plan`, `work`, `merge`, `versions` and `diff`.
+/// Arguments of `marey library build`, `add`, `plan`, `work` and `merge`.
 struct LibraryBuildArguments {
   std::filesystem::path library;
   int jobs = 0;    ///< Processes; 0: one per core.
@@ -20,12 +21,14 @@ struct LibraryBuildArguments {
   int shard = 0;   ///< To work on, from 1.
   bool slurm = false;
   bool json = false;
-  int version_before = 0;
-  int version_after = 0;
+  AddSourcesArguments added;  ///< Of `add`; `library` is the same.
 };
 
 /// Brings a library up to date. Exit code 4 if a source gave nothing.
 Exit run_library_build(const LibraryBuildArguments& args, Console& console);
+
+/// Names sources in library.toml, which is created if it does not exist, then builds.
+Exit run_library_add(const LibraryBuildArguments& args, Console& console);
 
 /// Divides the sources into shards; with `slurm`, prints a script that runs them.
 Exit run_library_plan(const LibraryBuildArguments& args, Console& console);

@@ -36,6 +36,22 @@ std::vector<fs::path> label_files(const fs::path& library) {
   return out;
 }
 
+/// Reads the index tables of all sources, and adds their digests.
+Status read_tables(BuildInputs& out, std::string& digests) {
+  for (const LibrarySource& source : out.settings.sources) {
+    auto& table = out.tables.emplace_back();
+    if (source.index.empty()) continue;
+    const fs::path path = out.library / source.index;  // Stays if it is absolute.
+    const auto text = recordings::read_file(path);
+    if (!text) return text.error();
+    auto parsed = IndexTable::parse(*text, path.string());
+    if (!parsed) return parsed.error();
+    table = std::move(*parsed);
+    digests += recordings::sha256(*text);
+  }
+  return Done{};
+}
+
 /// A number that every value of double has another text for.
 std::string exact_text(double value) {
   return format_text("%.17g", value);
@@ -60,6 +76,7 @@ Result<BuildInputs> read_build_inputs(const fs::path& library) {
   if (!settings) return settings.error();
   out.settings = std::move(*settings);
   std::string digests = recordings::sha256(*text);
+  if (const Status ok = read_tables(out, digests); !ok) return ok.error();
   for (const fs::path& labels : label_files(out.library)) {
     const auto digest = recordings::sha256_of_file(labels);
     if (!digest) return digest.error();
@@ -69,9 +86,9 @@ Result<BuildInputs> read_build_inputs(const fs::path& library) {
   return out;
 }
 
-std::optional<double> BuildInputs::table_rate_hz(const SourceFile& file) const {
-  (void)file;
-  return std::nullopt;
+std::optional<IndexEntry> BuildInputs::find_in_table(const SourceFile& file) const {
+  const auto& table = tables[file.source];
+  return table ? table->find(file) : std::nullopt;
 }
 
 SourceKeys keys_of(const BuildInputs& inputs,
@@ -82,9 +99,8 @@ SourceKeys keys_of(const BuildInputs& inputs,
   std::string reading = "kind " + file.kind;
   reading += " clean " + std::to_string(static_cast<int>(settings.clean));
   if (source.rate_hz) reading += " option " + exact_text(*source.rate_hz);
-  if (const auto rate_hz = inputs.table_rate_hz(file)) {
-    reading += " table " + exact_text(*rate_hz);
-  }
+  const auto entry = inputs.find_in_table(file);
+  if (entry && entry->rate_hz) reading += " table " + exact_text(*entry->rate_hz);
   std::string clips = "segment " + std::to_string(static_cast<int>(settings.segment));
   for (const QualityLimit& limit : settings.limits) {
     clips +=

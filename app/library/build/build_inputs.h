@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/library/sources/index_table.h"
 #include "app/library/sources/list_sources.h"
 #include "core/base/result.h"
 #include "core/library/library_settings.h"
@@ -17,11 +18,13 @@ namespace marey::app {
 struct BuildInputs {
   std::filesystem::path library;  ///< Absolute.
   LibrarySettings settings;
+  /// Index table of each source in the settings; nullopt: it has none.
+  std::vector<std::optional<IndexTable>> tables;
   /// SHA-256 of library.toml, the index tables and the labels.
   std::string digest;
 
-  /// Returns the rate that an index table states for a source; nullopt: none.
-  [[nodiscard]] std::optional<double> table_rate_hz(const SourceFile& file) const;
+  /// Returns what an index table states about a file; nullopt: nothing.
+  [[nodiscard]] std::optional<IndexEntry> find_in_table(const SourceFile& file) const;
 };
 
 /// Reads library.toml and its tables and labels. Errors (kBadInput): no library in this

@@ -43,6 +43,7 @@ std::string clip_name(const SourceFile& file,
 
 Provenance provenance_of(const LibrarySource& source,
                          const SourceFile& file,
+                         const std::optional<IndexEntry>& entry,
                          const Provenance& found) {
   Provenance out = found;
   out.path = file.name;
@@ -51,9 +52,21 @@ Provenance provenance_of(const LibrarySource& source,
   out.origin = source.origin;
   out.commit = source.commit;
   out.attribution = source.attribution;
+  if (entry && !entry->subject.empty()) out.subject = entry->subject;
   const std::string stated = subject_of(file, source);
   if (!stated.empty()) out.subject = stated;
   return out;
+}
+
+void add_labels(std::vector<ClipLabel> labels, ClipRecord& record) {
+  for (ClipLabel& label : labels) record.labels.push_back(std::move(label));
+}
+
+void sort_labels(ClipRecord& record) {
+  std::ranges::sort(record.labels, [](const ClipLabel& a, const ClipLabel& b) {
+    return std::tie(a.start_s, a.text, a.end_s, a.by) <
+           std::tie(b.start_s, b.text, b.end_s, b.by);
+  });
 }
 
 /// Counts the records of each body: numbers of segments are counted in their body.
@@ -69,15 +82,16 @@ void add_records(const BuildInputs& inputs,
                  std::vector<ClipRecord> records,
                  CollectedRecords& out) {
   const LibrarySource& source = inputs.settings.sources[file.source];
+  const auto entry = inputs.find_in_table(file);
   const auto counts = count_bodies(records);
   std::map<std::string, std::size_t> numbers;
   std::size_t row = 0;
   for (ClipRecord& record : records) {
     record.name = clip_name(file, record, numbers[record.body]++, counts.at(record.body));
-    record.provenance = provenance_of(source, file, record.provenance);
-    for (ClipLabel& label : labels_of_name(file, source, record.duration_s())) {
-      record.labels.push_back(std::move(label));
-    }
+    record.provenance = provenance_of(source, file, entry, record.provenance);
+    add_labels(labels_of_name(file, source, record.duration_s()), record);
+    if (entry) add_labels(labels_of_index(*entry, record.duration_s()), record);
+    sort_labels(record);
     out.feature_keys.push_back(outcome.clips_key);
     out.first_rows.push_back(row);
     row += static_cast<std::size_t>(

@@ -106,7 +106,8 @@ Result<SourceStage> make_stage(const BuildInputs& inputs,
                                const std::string& motion_key) {
   ReadSourceOptions options;
   options.clean = inputs.settings.clean;
-  options.table_rate_hz = inputs.table_rate_hz(file);
+  if (const auto entry = inputs.find_in_table(file))
+    options.table_rate_hz = entry->rate_hz;
   auto motions = read_source(file, inputs.settings.sources[file.source], options);
   if (!motions) return without_path(motions.error(), file);
   SourceStage stage;
