@@ -148,7 +148,7 @@ Status import_clips(const BuildInputs& inputs,
                     const SourceStage& stage,
                     const std::string& source_id,
                     const std::string& key) {
-  const auto clips = make_clips(inputs, file, stage, source_id);
+  const auto clips = make_clips(inputs, stage, source_id);
   if (!clips) return clips.error();
   if (const Status ok = write_object(inputs, key, ".f32", clips->features); !ok)
     return ok;

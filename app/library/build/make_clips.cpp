@@ -90,7 +90,6 @@ ClipRecord record_of(const BuildInputs& inputs,
 }  // namespace
 
 Result<SourceClips> make_clips(const BuildInputs& inputs,
-                               const SourceFile& file,
                                const recordings::SourceStage& stage,
                                const std::string& source_id) {
   SourceClips out;

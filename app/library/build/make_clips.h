@@ -25,7 +25,6 @@ struct SourceClips {
 /// events. Reads the motions' objects, not the source.
 /// Errors: an object that cannot be read.
 [[nodiscard]] Result<SourceClips> make_clips(const BuildInputs& inputs,
-                                             const SourceFile& file,
                                              const recordings::SourceStage& stage,
                                              const std::string& source_id);
 
