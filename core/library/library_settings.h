@@ -44,7 +44,10 @@ enum class SegmentBy { kNone, kLabels, kStillness, kSteps, kChange };
 enum class CleanBy { kNone, kRepair, kGround };
 
 struct DuplicateRule {
-  double max_distance = 0.15;    ///< Mean distance of features of the same motion.
+  /// Mean distance of features of the same motion, over their mean change within 0.1 s.
+  double max_distance = 0.15;
+  /// Distance of the courses of one motion on two bodies (library/duplicates/).
+  double max_body_distance = 0.3;
   double max_shift_s = 0.5;      ///< Difference of the starts.
   double min_cover_share = 0.9;  ///< Common part of the shorter one.
 };

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "library/duplicates/clip_candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <tuple>
+
+#include "library/features/body_features.h"
+
+#include "core/base/parallel.h"
+
+namespace marey::library {
+namespace {
+
+constexpr std::size_t kAnchorClipBlock = 256;
+// Anchors of a clip that are searched, of a long one evenly chosen.
+constexpr std::size_t kMaxQueries = 5;
+// Near anchors per query.
+constexpr std::size_t kMaxHits = 16;
+constexpr float kMaxAnchorDistance = 0.5F;
+constexpr double kMaxFirstMismatch = 2.5;
+// Same shift of two anchors of a pair of clips. [rows]
+constexpr double kSameShift = 1.0;
+// Distance of still clips by rounding. [L]
+constexpr double kRounding = 0.005;
+constexpr int kMinBodyRows = 12;
+// Candidates on other bodies within this factor of the limit are kept, too.
+constexpr double kNearFactor = 1.5;
+
+/// A pair of clips at a time shift.
+struct PairShift {
+  int original = 0;
+  double shift = 0.0;
+  float distance = 0.0F;
+};
+
+}  // namespace
+
+AnchorTable anchors_of(const ClipRows& features, std::size_t threads) {
+  const auto count = static_cast<std::size_t>(features.clip_count());
+  const std::size_t blocks = (count + kAnchorClipBlock - 1) / kAnchorClipBlock;
+  std::vector<AnchorTable> parts(blocks);
+  in_parallel(blocks, threads, [&](std::size_t b) {
+    const std::size_t end = std::min(count, (b + 1) * kAnchorClipBlock);
+    for (std::size_t c = b * kAnchorClipBlock; c < end; ++c) {
+      const MotionAnchors found = find_anchors(features.rows(static_cast<int>(c)));
+      AnchorTable& part = parts[b];
+      part.values.insert(part.values.end(), found.values.begin(), found.values.end());
+      part.at.insert(part.at.end(), found.at.begin(), found.at.end());
+      part.clips.insert(part.clips.end(), found.at.size(), static_cast<int>(c));
+    }
+  });
+  AnchorTable out;
+  for (AnchorTable& part : parts) {
+    out.values.insert(out.values.end(), part.values.begin(), part.values.end());
+    out.at.insert(out.at.end(), part.at.begin(), part.at.end());
+    out.clips.insert(out.clips.end(), part.clips.begin(), part.clips.end());
+    part = {};
+  }
+  return out;
+}
+
+CandidateSearch::CandidateSearch(const ClipRows& features,
+                                 const AnchorIndex& index,
+                                 const DuplicateRule& rule)
+    : features_(features), index_(index), rule_(rule) {}
+
+std::vector<ClipCandidate> CandidateSearch::find(int clip) {
+  std::vector<ClipCandidate> out;
+  for (const bool is_mirrored : {false, true}) search(clip, is_mirrored, out);
+  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.original, a.is_mirrored) < std::tie(b.original, b.is_mirrored);
+  });
+  return out;
+}
+
+void CandidateSearch::search(int clip,
+                             bool is_mirrored,
+                             std::vector<ClipCandidate>& out) {
+  std::span<const float> rows = features_.rows(clip);
+  std::vector<float> mirrored;
+  if (is_mirrored) {
+    mirrored = mirrored_features(rows);
+    rows = mirrored;
+  }
+  const MotionAnchors anchors = find_anchors(rows);
+  const std::size_t count = anchors.at.size();
+  const std::size_t asked = std::min(count, kMaxQueries);
+  std::vector<PairShift> pairs;
+  for (std::size_t k = 0; k < asked; ++k) {
+    const std::size_t q = k * count / asked;
+    index_.find(std::span(anchors.values).subspan(q * kAnchorFloats, kAnchorFloats),
+                clip,
+                kMaxHits,
+                kMaxAnchorDistance,
+                anchor_scratch_,
+                hits_);
+    for (const AnchorHit& hit : hits_) {
+      pairs.push_back({index_.table().clips[hit.anchor],
+                       index_.table().at[hit.anchor] - anchors.at[q],
+                       hit.distance});
+    }
+  }
+  if (pairs.empty()) return;
+  std::sort(pairs.begin(), pairs.end(), [](const PairShift& a, const PairShift& b) {
+    return std::tie(a.original, a.distance, a.shift) <
+           std::tie(b.original, b.distance, b.shift);
+  });
+  prepare_clip(rows, clip_);
+  for (std::size_t first = 0; first < pairs.size();) {
+    std::optional<ClipCandidate> best;
+    std::vector<double> tried;
+    const int original = pairs[first].original;
+    bool is_prepared = false;
+    for (; first < pairs.size() && pairs[first].original == original; ++first) {
+      const double shift = pairs[first].shift;
+      if (std::any_of(tried.begin(), tried.end(), [&](double t) {
+            return std::abs(t - shift) < kSameShift;
+          })) {
+        continue;
+      }
+      tried.push_back(shift);
+      if (!is_prepared) prepare_clip(features_.rows(original), other_);
+      is_prepared = true;
+      const auto one = compare(original, shift);
+      if (!one) continue;
+      if (!best ||
+          std::make_tuple(!one->agrees, one->is_other_body, one->course) <
+              std::make_tuple(!best->agrees, best->is_other_body, best->course)) {
+        best = one;
+      }
+    }
+    if (!best) continue;
+    best->is_mirrored = is_mirrored;
+    out.push_back(*best);
+  }
+}
+
+std::optional<ClipCandidate> CandidateSearch::compare(int original, double shift) {
+  const int shorter = std::min(clip_.count(), other_.count());
+  const int longer = std::max(clip_.count(), other_.count());
+  const double common =
+      std::min<double>(clip_.count(), other_.count() - shift) - std::max(0.0, -shift);
+  // Half a row at either end belongs to neither.
+  const double needed = rule_.min_cover_share * shorter - 1.0;
+  if (common < needed) return std::nullopt;
+  const auto agreement =
+      compare_clips(clip_, other_, shift, kMaxFirstMismatch, compare_scratch_);
+  if (!agreement || agreement->rows < needed) return std::nullopt;
+  ClipCandidate out;
+  out.original = original;
+  out.shift = agreement->shift;
+  out.course = agreement->course;
+  out.distance = agreement->distance / std::max(agreement->change, 1e-6);
+  const bool has_same_length = shorter + 1.0 >= rule_.min_cover_share * longer;
+  out.is_contained = !has_same_length && clip_.count() < other_.count();
+  out.contains = !has_same_length && !out.is_contained;
+  if (has_same_length &&
+      std::abs(out.shift) > rule_.max_shift_s * kFeatureRate_hz + 1e-9) {
+    return std::nullopt;
+  }
+  out.agrees = agreement->distance <= kRounding + rule_.max_distance * agreement->change;
+  if (out.agrees) return out;
+  if (have_same_lengths(clip_, other_) || agreement->rows < kMinBodyRows ||
+      agreement->course > kNearFactor * rule_.max_body_distance) {
+    return std::nullopt;
+  }
+  out.is_other_body = true;
+  out.agrees = agreement->course <= rule_.max_body_distance;
+  return out;
+}
+
+}  // namespace marey::library
