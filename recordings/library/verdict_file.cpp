@@ -12,6 +12,7 @@
 #include "recordings/base/number_text.h"
 #include "recordings/base/text_reader.h"
 #include "recordings/base/word_text.h"
+#include "recordings/library/enum_named.h"
 #include "recordings/library/label_table.h"
 
 namespace marey::recordings {
@@ -21,13 +22,6 @@ constexpr std::array<std::string_view, 6> kVerdictColumns = {
     "clip", "figure", "frames", "verdict", "by", "note"};
 
 enum VerdictColumn : std::size_t { kClip, kFigure, kFrames, kVerdict, kPerson, kNote };
-
-std::optional<Verdict> verdict_named(std::string_view word) {
-  for (const Verdict verdict : {Verdict::kPass, Verdict::kWarn, Verdict::kFail}) {
-    if (name(verdict) == word) return verdict;
-  }
-  return std::nullopt;
-}
 
 /// Reads "12" or "12-40".
 std::optional<FrameRange> frames_of(std::string_view word) {
@@ -54,7 +48,7 @@ VerdictCorrection read_verdict_row(LabelTable& table) {
     }
   }
   const std::string word = table.required(kVerdict);
-  const auto verdict = verdict_named(word);
+  const auto verdict = enum_named<Verdict>(word);
   if (!verdict) {
     table.fail(
         kVerdict, quoted_start(word) + " is not a verdict", "write pass, warn or fail");
