@@ -29,4 +29,9 @@ namespace marey::app {
 [[nodiscard]] std::string_view markers_style();
 [[nodiscard]] std::string_view markers_script();
 
+// The same for the page of a library's check.
+[[nodiscard]] std::string_view library_page();
+[[nodiscard]] std::string_view library_style();
+[[nodiscard]] std::string_view library_script();
+
 }  // namespace marey::app
