@@ -11,9 +11,6 @@
 
 namespace marey::recordings {
 
-/// Version of the tables of library.sqlite.
-inline constexpr int kLibraryIndexVersion = 3;
-
 /// Makes the index of a library: a database of its records (tables in
 /// docs/formats/library.md), always as a whole. It appears at `path` complete or not at
 /// all; a reader of the old one is not disturbed. Clips get their numbers in the order of

@@ -7,7 +7,6 @@
 #include <system_error>
 #include <utility>
 
-#include "recordings/library/library_index.h"
 
 namespace marey::recordings {
 

@@ -14,6 +14,9 @@ namespace marey::recordings {
 /// SQLite's application_id of library.sqlite: "MLIB".
 inline constexpr int kIndexApplication = 0x4d4c4942;
 
+/// Version of the tables of library.sqlite.
+inline constexpr int kLibraryIndexVersion = 3;
+
 /// Returns the error of an index that cannot be used (kBadInput). The next step is the
 /// command that makes it again.
 [[nodiscard]] Error bad_index(const std::filesystem::path& path, std::string cause);

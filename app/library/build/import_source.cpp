@@ -144,7 +144,6 @@ Result<SourceStage> import_stage(const BuildInputs& inputs,
 
 /// Makes the records and features of a source's clips.
 Status import_clips(const BuildInputs& inputs,
-                    const SourceFile& file,
                     const SourceStage& stage,
                     const std::string& source_id,
                     const std::string& key) {
@@ -198,7 +197,7 @@ ImportedSource import_source(const BuildInputs& inputs, const SourceFile& file) 
     return out;
   }
   out.outcome.remarks = stage->remarks;
-  const Status ok = import_clips(inputs, file, *stage, known->id, keys.clips);
+  const Status ok = import_clips(inputs, *stage, known->id, keys.clips);
   if (!ok) {
     out.outcome.failure = with_name(ok.error(), file);
     return out;
