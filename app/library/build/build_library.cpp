@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "app/library/build/source_cache.h"
 #include "app/library/sources/list_sources.h"
 #include "app/shell/stop_signal.h"
+#include "core/base/format_text.h"
 
 namespace marey::app {
 namespace {
@@ -74,6 +76,31 @@ void take_result(const TaskOutcome& task,
   if (auto known = parse_known_source(std::string_view(task.text).substr(end + 1))) {
     cache.add(file.path, std::move(*known));
   }
+}
+
+/// Returns each different remark once, in the order of the first source that has it.
+std::vector<std::string> group_remarks(const std::vector<SourceOutcome>& outcomes) {
+  std::map<std::string, std::size_t> places;
+  std::vector<std::string> remarks;
+  std::vector<std::string> first;
+  std::vector<std::size_t> counts;
+  for (const SourceOutcome& outcome : outcomes) {
+    for (const std::string& remark : outcome.remarks) {
+      const auto [place, is_new] = places.emplace(remark, remarks.size());
+      if (is_new) {
+        remarks.push_back(remark);
+        first.push_back(outcome.name);
+        counts.push_back(0);
+      }
+      ++counts[place->second];
+    }
+  }
+  for (std::size_t i = 0; i < remarks.size(); ++i) {
+    const std::string others =
+        counts[i] > 1 ? format_text(" and %zu other sources", counts[i] - 1) : "";
+    remarks[i] = first[i] + others + ": " + remarks[i];
+  }
+  return remarks;
 }
 
 Error stopped() {
@@ -142,10 +169,8 @@ Result<BuiltLibrary> finish_library(const BuildInputs& inputs,
   for (const SourceOutcome& outcome : outcomes) {
     if (outcome.was_made) ++out.made;
     if (outcome.failure) out.failures.push_back(*outcome.failure);
-    for (const std::string& remark : outcome.remarks) {
-      out.remarks.push_back(outcome.name + ": " + remark);
-    }
   }
+  out.remarks = group_remarks(outcomes);
   out.remarks.insert(
       out.remarks.end(), out.merged.remarks.begin(), out.merged.remarks.end());
   return out;

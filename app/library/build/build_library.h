@@ -20,7 +20,9 @@ struct BuiltLibrary {
   std::size_t sources = 0;
   std::size_t made = 0;              ///< Sources whose objects were made by this build.
   std::vector<Error> failures;       ///< Sources that gave nothing, by name.
-  std::vector<std::string> remarks;  ///< Of readers and of the merge.
+  /// Of readers and of the merge. A remark on several sources occurs once, with their
+  /// number and the first one.
+  std::vector<std::string> remarks;
 };
 
 /// Makes the objects of sources in child processes. Returns the outcomes, in the order of
