@@ -40,7 +40,7 @@ export interface Problem {
 export interface Clip {
   id: string; name: string; source: string; verdict: Verdict; seconds: number;
   values: (number | null)[];
-  /** Of each figure; null: it is only reported. */
+  /** One for each figure; null: it is only reported. */
   verdicts: (Verdict | null)[];
   places: Map<number, {joint: string; start_s: number | null}>;
   problems: Problem[];

@@ -131,7 +131,7 @@ TEST(ApplyVerdicts, ReplacesTheVerdictAndTheQuality) {
   EXPECT_TRUE(apply_verdicts(clip, std::vector{pass}).empty());
   EXPECT_EQ(clip.figures[1].verdict, Verdict::kPass);
   EXPECT_EQ(clip.figures[1].value, 14.0);
-  EXPECT_EQ(clip.quality, Verdict::kWarn);  // Of the spike.
+  EXPECT_EQ(clip.quality, Verdict::kWarn);  // The spike still warns.
   ASSERT_EQ(clip.problems.size(), 1u);
   EXPECT_EQ(clip.problems[0].kind, "spike");
 }
