@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// measure_duplicates FOLDER [--half tuning|held|all] [--clips N] [--list]
+// measure_duplicates FOLDER [--half tuning|held|all] [--only CAUSE] [--list]
+// measure_duplicates --clips N
 //
 // The search for duplicates (library/duplicates/find_duplicates.h) on the BVH and AMC
 // files of FOLDER/bandai and FOLDER/cmu: false duplicates among the clips as they are,
@@ -44,6 +45,7 @@ struct Options {
   std::string half = "held";
   int made_clips = 0;
   bool lists_errors = false;
+  std::string only;  ///< Start of the names of the causes measured; empty: all.
 };
 
 struct SourceMotion {
@@ -111,7 +113,6 @@ struct Clips {
 struct Cause {
   const char* name = "";
   std::function<std::optional<Rows>(const Motion&)> copy;
-  bool has_original = true;
 };
 
 Motion at_rate(const Motion& motion, double hz) {
@@ -283,7 +284,10 @@ void measure_library(const Options& options) {
               "other",
               "missed",
               "found without original");
-  for (const Cause& cause : causes(bodies)) measure_cause(cause, bandai, options);
+  for (const Cause& cause : causes(bodies)) {
+    if (!std::string(cause.name).starts_with(options.only)) continue;
+    measure_cause(cause, bandai, options);
+  }
 }
 
 // Smooth random motion of one body: sums of sines, in 57 columns.
@@ -362,6 +366,8 @@ int run(int argc, char** argv) {
       options.half = argv[++k];
     } else if (word == "--clips" && k + 1 < argc) {
       options.made_clips = std::atoi(argv[++k]);
+    } else if (word == "--only" && k + 1 < argc) {
+      options.only = argv[++k];
     } else if (word == "--list") {
       options.lists_errors = true;
     } else {
@@ -373,7 +379,7 @@ int run(int argc, char** argv) {
   } else if (!options.folder.empty()) {
     measure_library(options);
   } else {
-    stop("use: measure_duplicates FOLDER [--half tuning|held|all] [--clips N] [--list]");
+    stop("use: measure_duplicates FOLDER [--half tuning|held|all] | --clips N");
   }
   return 0;
 }

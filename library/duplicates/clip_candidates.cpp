@@ -15,7 +15,6 @@ namespace marey::library {
 namespace {
 
 constexpr std::size_t kAnchorClipBlock = 256;
-// Anchors of a clip that are searched, of a long one evenly chosen.
 constexpr std::size_t kMaxQueries = 5;
 // Near anchors per query.
 constexpr std::size_t kMaxHits = 16;
@@ -26,6 +25,9 @@ constexpr double kSameShift = 1.0;
 // Distance of still clips by rounding. [L]
 constexpr double kRounding = 0.005;
 constexpr int kMinBodyRows = 12;
+constexpr double kShortRows = 40.0;
+constexpr double kLongRows = 100.0;
+constexpr double kShortFactor = 0.67;
 // Candidates on other bodies within this factor of the limit are kept, too.
 constexpr double kNearFactor = 1.5;
 
@@ -85,12 +87,9 @@ void CandidateSearch::search(int clip,
     mirrored = mirrored_features(rows);
     rows = mirrored;
   }
-  const MotionAnchors anchors = find_anchors(rows);
-  const std::size_t count = anchors.at.size();
-  const std::size_t asked = std::min(count, kMaxQueries);
+  const MotionAnchors anchors = find_queries(rows, kMaxQueries);
   std::vector<PairShift> pairs;
-  for (std::size_t k = 0; k < asked; ++k) {
-    const std::size_t q = k * count / asked;
+  for (std::size_t q = 0; q < anchors.at.size(); ++q) {
     index_.find(std::span(anchors.values).subspan(q * kAnchorFloats, kAnchorFloats),
                 clip,
                 kMaxHits,
@@ -163,12 +162,17 @@ std::optional<ClipCandidate> CandidateSearch::compare(int original, double shift
   }
   out.agrees = agreement->distance <= kRounding + rule_.max_distance * agreement->change;
   if (out.agrees) return out;
+  // Short motions of one kind are too much alike for the full limit.
+  const double length_share =
+      std::clamp((agreement->rows - kShortRows) / (kLongRows - kShortRows), 0.0, 1.0);
+  const double limit =
+      rule_.max_body_distance * (kShortFactor + (1.0 - kShortFactor) * length_share);
   if (have_same_lengths(clip_, other_) || agreement->rows < kMinBodyRows ||
-      agreement->course > kNearFactor * rule_.max_body_distance) {
+      agreement->course > kNearFactor * limit) {
     return std::nullopt;
   }
   out.is_other_body = true;
-  out.agrees = agreement->course <= rule_.max_body_distance;
+  out.agrees = agreement->course <= limit;
   return out;
 }
 

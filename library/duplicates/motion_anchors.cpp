@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "library/features/body_features.h"
 #include "library/features/level_frame.h"
@@ -24,11 +25,15 @@ constexpr std::size_t kInstants = 5;
 constexpr std::size_t kPointFloats = 16;
 static_assert(kInstants * kPointFloats == kAnchorFloats);
 // From one instant to the next, in rows.
-constexpr double kInstantStep = 2.5;
+constexpr double kInstantStep = 2.0;
 constexpr int kSmoothRows = 2;
 constexpr int kApartRows = 3;
+// Rows between anchors where there are no extrema.
+constexpr int kFillRows = 5;
+// A clip with fewer extrema is searched by its middle rows, too.
+constexpr std::size_t kMinExtrema = 2;
 // Of all values of a still body. [L]
-constexpr float kMinChange = 0.02F;
+constexpr float kMinChange = 0.005F;
 
 using Places = std::array<float, kPointFloats>;
 
@@ -77,10 +82,10 @@ std::vector<double> energies_of(const std::vector<Places>& places) {
   return out;
 }
 
-// Rows of the maxima, with their fractions.
-std::vector<double> maxima_of(const std::vector<double>& energies) {
+// Rows of the maxima (sign 1) or minima (sign -1), with their fractions.
+std::vector<double> extrema_of(const std::vector<double>& energies, double sign) {
   const auto count = static_cast<int>(energies.size());
-  const auto at = [&](int t) { return energies[static_cast<std::size_t>(t)]; };
+  const auto at = [&](int t) { return sign * energies[static_cast<std::size_t>(t)]; };
   std::vector<double> out;
   for (int t = 1; t + 1 < count; ++t) {
     bool is_highest = true;
@@ -132,16 +137,18 @@ bool describe(const std::vector<Places>& places,
   return true;
 }
 
-}  // namespace
-
-MotionAnchors find_anchors(std::span<const float> rows) {
-  MAREY_ASSERT(rows.size() % kFeatureStride == 0);
-  MotionAnchors anchors;
-  if (rows.empty()) return anchors;
-  const std::vector<Places> places = places_of(rows);
-  std::vector<double> times = maxima_of(energies_of(places));
-  times.push_back(0.5 * static_cast<double>(places.size() - 1));
+std::vector<double> extrema_of_speed(const std::vector<Places>& places) {
+  const std::vector<double> energies = energies_of(places);
+  std::vector<double> times = extrema_of(energies, 1.0);
+  const std::vector<double> minima = extrema_of(energies, -1.0);
+  times.insert(times.end(), minima.begin(), minima.end());
   std::sort(times.begin(), times.end());
+  return times;
+}
+
+MotionAnchors described(const std::vector<Places>& places,
+                        const std::vector<double>& times) {
+  MotionAnchors anchors;
   std::array<float, kAnchorFloats> values{};
   for (const double at : times) {
     if (!describe(places, at, values)) continue;
@@ -149,6 +156,48 @@ MotionAnchors find_anchors(std::span<const float> rows) {
     anchors.values.insert(anchors.values.end(), values.begin(), values.end());
   }
   return anchors;
+}
+
+}  // namespace
+
+MotionAnchors find_anchors(std::span<const float> rows) {
+  MAREY_ASSERT(rows.size() % kFeatureStride == 0);
+  if (rows.empty()) return {};
+  const std::vector<Places> places = places_of(rows);
+  std::vector<double> times = extrema_of_speed(places);
+  const auto last = static_cast<double>(places.size() - 1);
+  const std::size_t extrema = times.size();
+  for (std::size_t k = 0; k <= extrema; ++k) {
+    const double from = k > 0 ? times[k - 1] : 0.0;
+    const double to = k < extrema ? times[k] : last;
+    if (to - from < 2.0 * kFillRows) continue;
+    for (double at = std::ceil(from) + kFillRows; at < to; at += kFillRows) {
+      times.push_back(at);
+    }
+  }
+  times.push_back(0.5 * last);
+  std::sort(times.begin(), times.end());
+  return described(places, times);
+}
+
+MotionAnchors find_queries(std::span<const float> rows, std::size_t max_count) {
+  MAREY_ASSERT(rows.size() % kFeatureStride == 0);
+  if (rows.empty()) return {};
+  const std::vector<Places> places = places_of(rows);
+  std::vector<double> times = extrema_of_speed(places);
+  const double middle = 0.5 * static_cast<double>(places.size() - 1);
+  std::sort(times.begin(), times.end(), [&](double a, double b) {
+    return std::make_pair(std::abs(a - middle), a) <
+           std::make_pair(std::abs(b - middle), b);
+  });
+  if (times.size() > max_count) times.resize(max_count);
+  if (times.size() < kMinExtrema) {
+    for (int k = 0; k < kFillRows; ++k) {
+      times.push_back(std::floor(middle) + k - kFillRows / 2);
+    }
+  }
+  times.push_back(middle);
+  return described(places, times);
 }
 
 }  // namespace marey::library
