@@ -20,7 +20,7 @@
 namespace marey::app {
 namespace {
 
-Result<RawBody> read_bvh(const std::filesystem::path& path) {
+Result<RawBody> read_bvh(const std::filesystem::path& path, std::size_t /*animation*/) {
   const recordings::BvhReadOptions options;
   auto bvh = recordings::read_bvh(path, options);
   if (!bvh) return bvh.error();
@@ -36,7 +36,8 @@ Result<RawBody> read_bvh(const std::filesystem::path& path) {
   return raw;
 }
 
-Result<RawBody> read_acclaim(const std::filesystem::path& path) {
+Result<RawBody> read_acclaim(const std::filesystem::path& path,
+                             std::size_t /*animation*/) {
   const auto asf_file = recordings::find_skeleton_file(path);
   if (!asf_file) {
     return bad_input(path.string(),
@@ -67,7 +68,7 @@ Result<RawBody> body_of(Result<Archive> archive) {
   return raw;
 }
 
-Result<RawBody> read_npz(const std::filesystem::path& path) {
+Result<RawBody> read_npz(const std::filesystem::path& path, std::size_t /*animation*/) {
   constexpr int kLibraryLayout = 2;
   if (recordings::npz_layout(path) == kLibraryLayout) {
     return body_of(recordings::read_motion_object(path));
@@ -75,8 +76,8 @@ Result<RawBody> read_npz(const std::filesystem::path& path) {
   return body_of(recordings::read_npz(path));
 }
 
-Result<RawBody> read_gltf(const std::filesystem::path& path) {
-  auto character = recordings::read_character(path);
+Result<RawBody> read_gltf(const std::filesystem::path& path, std::size_t animation) {
+  auto character = recordings::read_character(path, {animation});
   if (!character) return character.error();
   RawBody raw;
   raw.has_motion = character->motion.has_value();
@@ -86,6 +87,7 @@ Result<RawBody> read_gltf(const std::filesystem::path& path) {
   raw.faces_back = character->faces_back;
   raw.carries_skin = std::move(character->carries_skin);
   raw.bound = std::move(character->bound);
+  raw.animations = std::move(character->animations);
   if (raw.has_motion) {
     raw.motion = *std::move(character->motion);
   } else {
@@ -94,7 +96,7 @@ Result<RawBody> read_gltf(const std::filesystem::path& path) {
   return raw;
 }
 
-using Reader = Result<RawBody> (*)(const std::filesystem::path&);
+using Reader = Result<RawBody> (*)(const std::filesystem::path&, std::size_t animation);
 
 /// The readers of all kinds of files, by extension.
 constexpr std::array<std::pair<std::string_view, Reader>, 7> kReaders{
@@ -129,9 +131,9 @@ bool is_body_file(const std::filesystem::path& path) {
   return find_reader(path) != nullptr;
 }
 
-Result<RawBody> read_raw_body(const std::filesystem::path& path) {
+Result<RawBody> read_raw_body(const std::filesystem::path& path, std::size_t animation) {
   if (const Status ok = check_input_file(path); !ok) return ok.error();
-  if (const Reader reader = find_reader(path)) return reader(path);
+  if (const Reader reader = find_reader(path)) return reader(path, animation);
   return bad_input(path.string(),
                    "marey reads no motion or body of this kind",
                    "give a file of one of these kinds: " + body_extensions());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -31,7 +32,8 @@ struct RawBody {
   bool has_motion = false;
   /// Largest translation of a bone relative to its parent that was ignored. [m]
   double ignored_translation_m = 0.0;
-  bool rate_is_guessed = false;  ///< The file states no rate.
+  bool rate_is_guessed = false;         ///< The file states no rate.
+  std::vector<std::string> animations;  ///< glTF: as recordings::Character's.
   /// Uncertainty, [frame][joint]; empty: not in the file.
   std::vector<std::vector<JointUncertainty>> uncertainty;
   std::optional<recordings::SkinnedMesh> mesh;
@@ -42,7 +44,9 @@ struct RawBody {
   std::optional<recordings::BoundBody> bound;  ///< As recordings::Character's.
 };
 
-/// Reads a body file. Errors: unreadable; another kind of file; an .amc without its .asf.
-[[nodiscard]] Result<RawBody> read_raw_body(const std::filesystem::path& path);
+/// Reads a body file; of a glTF the animation with this index. Errors: unreadable;
+/// another kind of file; an .amc without its .asf.
+[[nodiscard]] Result<RawBody> read_raw_body(const std::filesystem::path& path,
+                                            std::size_t animation = 0);
 
 }  // namespace marey::app

@@ -232,7 +232,7 @@ std::optional<Finding> assess_exchanged_sides(const std::filesystem::path& path,
 }
 
 Result<ReadBody> read_body(const BodyFile& file) {
-  auto raw = read_raw_body(file.path);
+  auto raw = read_raw_body(file.path, file.animation);
   if (!raw) return raw.error();
   return identify_body(*std::move(raw), file);
 }

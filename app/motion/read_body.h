@@ -39,6 +39,7 @@ struct BodyFile {
   std::filesystem::path path;
   std::optional<std::filesystem::path> bone_map;
   std::optional<Neutral> neutral = std::nullopt;  ///< For a file with a motion.
+  std::size_t animation = 0;                      ///< Index of a glTF's animation.
 };
 
 /// A body in marey's frame: Y up, facing +Z, in metres, its bones marked.

@@ -85,7 +85,7 @@ std::optional<std::string> left_out(const ReadMotion& read) {
 }
 
 Result<ReadMotion> read_motion(const BodyFile& file) {
-  auto raw = read_raw_body(file.path);
+  auto raw = read_raw_body(file.path, file.animation);
   if (!raw) return raw.error();
   if (!raw->has_motion) {
     return bad_input(
@@ -99,7 +99,8 @@ Result<ReadMotion> read_motion(const BodyFile& file) {
                     std::move(remarks),
                     body->exchanged,
                     body->raw.rate_is_guessed,
-                    std::move(body->raw.uncertainty)};
+                    std::move(body->raw.uncertainty),
+                    std::move(body->raw.animations)};
 }
 
 }  // namespace marey::app

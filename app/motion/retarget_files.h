@@ -69,6 +69,7 @@ struct ReadMotion {
   bool rate_is_guessed = false;  ///< The file states no rate.
   /// Uncertainty, [frame][joint]; empty: not in the file.
   std::vector<std::vector<JointUncertainty>> uncertainty = {};
+  std::vector<std::string> animations = {};  ///< glTF: names of all animations.
 };
 
 /// Returns a remark on ignored bone translation, if it is large enough to be visible.

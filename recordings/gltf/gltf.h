@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -33,7 +34,7 @@ struct Character {
   /// All skinned triangles, transformed to the skeleton's rest pose; nullopt without a
   /// skin.
   std::optional<SkinnedMesh> mesh;
-  /// The first animation, if any; its skeleton is `skeleton`.
+  /// The chosen animation, if there is any; its skeleton is `skeleton`.
   std::optional<Motion> motion;
   /// Largest movement of a joint relative to its parent that `motion` does not contain,
   /// because a Pose moves only the root. Movement of the first joint that branches (the
@@ -47,6 +48,12 @@ struct Character {
   /// The body in the pose of its skin's inverse bind matrices, if the nodes' rest pose
   /// differs (as in a frame of an animation): by more than 5 degrees for some joint.
   std::optional<BoundBody> bound;
+  /// Names of all animations of the file, which may be empty.
+  std::vector<std::string> animations;
+};
+
+struct ReadCharacterOptions {
+  std::size_t animation = 0;  ///< Index of the animation that becomes the motion.
 };
 
 /// Reads a .glb, .vrm, .vrma or .gltf (2.0) file.
@@ -62,14 +69,17 @@ struct Character {
 /// carries joints and mirrors them or scales them unevenly (by more than 1 %); compressed
 /// or sparse data, or any other required extension that marey does not read, by name;
 /// inconsistent indices, accessors or buffers; nodes without a root; a skin without
-/// joints; a position beyond 10 km; an animation of too many frames for memory. Cost:
-/// linear in vertices, and in frames times nodes.
-[[nodiscard]] Result<Character> read_character(const std::filesystem::path& path);
+/// joints; a position beyond 10 km; an animation of too many frames for memory; an index
+/// of an animation that does not exist, unless it is 0. Cost: linear in vertices, and in
+/// frames times nodes.
+[[nodiscard]] Result<Character> read_character(const std::filesystem::path& path,
+                                               const ReadCharacterOptions& options = {});
 
 /// Applies read_character() to a file's bytes. `path` is the name in messages; the
 /// buffers of a .gltf are in its folder.
 [[nodiscard]] Result<Character> parse_character(const std::string& bytes,
-                                                const std::filesystem::path& path);
+                                                const std::filesystem::path& path,
+                                                const ReadCharacterOptions& options = {});
 
 /// Writes a GLB of the skeleton in its rest pose with its skinned mesh and, unless
 /// `motion` is null, one animation of it, named `clip`: linear keys at the motion's rate,

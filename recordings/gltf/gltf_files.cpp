@@ -127,6 +127,18 @@ Status check_referred_numbers(const NamedModel& file) {
       "does not fit into memory");
 }
 
+Status select_animation(const std::string& file,
+                        std::size_t animation,
+                        tinygltf::Model& model) {
+  if (animation == 0) return Done{};
+  const NamedModel named{model, file};
+  if (animation >= model.animations.size()) {
+    return named.fail("it has no animation with the index " + std::to_string(animation));
+  }
+  std::swap(model.animations.front(), model.animations[animation]);
+  return check_referred_numbers(named);
+}
+
 Status copy_buffered_images(const NamedModel& file, std::vector<std::string>& images) {
   const tinygltf::Model& model = file.model;
   images.resize(model.images.size());

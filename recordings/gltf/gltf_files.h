@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,8 +11,9 @@
 #include "recordings/gltf/gltf_model.h"
 
 namespace tinygltf {
+class Model;
 class TinyGLTF;
-}
+}  // namespace tinygltf
 
 // Private to recordings/: limits of the data that a small glTF file can load.
 namespace marey::recordings {
@@ -29,6 +31,12 @@ void read_external_files(tinygltf::TinyGLTF& loader, ExternalFiles& files);
 /// animation reference. A file may reference one accessor any number of times. Errors:
 /// more than 32 million and more than two for each byte of its buffers.
 [[nodiscard]] Status check_referred_numbers(const NamedModel& file);
+
+/// Makes the animation with this index the first one of the model. Errors: it does not
+/// exist, unless the index is 0; check_referred_numbers()'s.
+[[nodiscard]] Status select_animation(const std::string& file,
+                                      std::size_t animation,
+                                      tinygltf::Model& model);
 
 /// Copies the bytes of the images in buffers into `images`, one entry for each image.
 /// Errors: an image extends beyond its buffer; their total is more than four times the

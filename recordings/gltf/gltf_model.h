@@ -124,6 +124,7 @@ using EachFrame = std::function<void(std::span<const glm::dmat4> world_from_join
 struct ReadAnimation {
   std::optional<Motion> motion;
   double ignored_translation_m = 0.0;
+  std::vector<std::string> names;  ///< Character::animations.
 };
 [[nodiscard]] Result<ReadAnimation> read_animation(const NamedModel& file,
                                                    const NodeTree& tree,

@@ -316,7 +316,8 @@ Status fill_source(const NamedModel& file, GltfSource& source) {
                       faces_back,
                       source.node_of_joint,
                       carries_skin,
-                      *std::move(bound)};
+                      *std::move(bound),
+                      std::move(animation->names)};
   return Done{};
 }
 
@@ -341,12 +342,6 @@ PlacedNodes place_nodes(const NodeTree& tree, std::span<const NodePose> poses) {
   return placed;
 }
 
-bool is_near(const PlacedNodes& placed, std::size_t node) {
-  // The condition includes NaN, the result of an overflow.
-  return glm::length(glm::dvec3(placed.world_from_node[node][3])) <= kMaxDistance_m &&
-         std::abs(glm::length(placed.rotation[node]) - 1.0) <= 1e-6;
-}
-
 Result<GltfSource> read_gltf_source(const std::filesystem::path& path) {
   const Result<std::string> bytes = read_file(path);
   if (!bytes) return bytes.error();
@@ -354,11 +349,14 @@ Result<GltfSource> read_gltf_source(const std::filesystem::path& path) {
 }
 
 Result<GltfSource> parse_gltf_source(const std::string& bytes,
-                                     const std::filesystem::path& path) {
+                                     const std::filesystem::path& path,
+                                     const ReadCharacterOptions& options) {
   tinygltf::Model model;
   const NamedModel file{model, path.string()};
   GltfSource source;
-  if (Status s = load_checked(file, path, bytes, model, source); !s) return s.error();
+  Status ok = load_checked(file, path, bytes, model, source);
+  if (ok) ok = select_animation(file.file, options.animation, model);
+  if (!ok) return ok.error();
   if (Status s = fill_source(file, source); !s) return s.error();
   return source;
 }
@@ -382,15 +380,16 @@ Status load_nodes(const std::string& bytes,
   return Done{};
 }
 
-Result<Character> read_character(const std::filesystem::path& path) {
-  auto source = read_gltf_source(path);
-  if (!source) return source.error();
-  return std::move(source->character);
+Result<Character> read_character(const std::filesystem::path& path,
+                                 const ReadCharacterOptions& options) {
+  const Result<std::string> bytes = read_file(path);
+  return bytes ? parse_character(*bytes, path, options) : bytes.error();
 }
 
 Result<Character> parse_character(const std::string& bytes,
-                                  const std::filesystem::path& path) {
-  auto source = parse_gltf_source(bytes, path);
+                                  const std::filesystem::path& path,
+                                  const ReadCharacterOptions& options) {
+  auto source = parse_gltf_source(bytes, path, options);
   if (!source) return source.error();
   return std::move(source->character);
 }

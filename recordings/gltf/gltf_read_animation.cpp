@@ -223,6 +223,9 @@ Result<ReadAnimation> read_animation(const NamedModel& file,
                                      const NodeSkeleton& body,
                                      const EachFrame& each) {
   ReadAnimation result;
+  for (const auto& animation : file.model.animations) {
+    result.names.push_back(animation.name);
+  }
   if (file.model.animations.empty()) return result;
   auto tracks = read_tracks(file, file.model.animations.front());
   if (!tracks) return tracks.error();

@@ -139,6 +139,12 @@ std::vector<std::size_t> in_order(const NodeTree& tree,
 
 }  // namespace
 
+bool is_near(const PlacedNodes& placed, std::size_t node) {
+  // The condition includes NaN, the result of an overflow.
+  return glm::length(glm::dvec3(placed.world_from_node[node][3])) <= kMaxDistance_m &&
+         std::abs(glm::length(placed.rotation[node]) - 1.0) <= 1e-6;
+}
+
 std::map<std::size_t, HumanBone> bones_of(const tinygltf::Model& model,
                                           bool& faces_back) {
   std::map<std::size_t, HumanBone> bones;

@@ -49,8 +49,10 @@ struct GltfSource {
 /// Reads an asset like read_character().
 [[nodiscard]] Result<GltfSource> read_gltf_source(const std::filesystem::path& path);
 /// Parses an asset like parse_character().
-[[nodiscard]] Result<GltfSource> parse_gltf_source(const std::string& bytes,
-                                                   const std::filesystem::path& path);
+[[nodiscard]] Result<GltfSource> parse_gltf_source(
+    const std::string& bytes,
+    const std::filesystem::path& path,
+    const ReadCharacterOptions& options = {});
 
 /// Returns true if a motion's joint rotations can be written directly, because each
 /// joint's parent is the joint of its node's parent. Otherwise use

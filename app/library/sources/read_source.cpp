@@ -16,6 +16,7 @@
 #include "app/motion/error_of_file.h"
 #include "app/motion/read_body.h"
 #include "app/motion/retarget_files.h"
+#include "core/base/printable.h"
 #include "recordings/base/motion_limits.h"
 
 namespace marey::app {
@@ -27,27 +28,56 @@ std::string hz_text(double hz) {
   return text.data();
 }
 
-/// Reads a file of a body and its motion.
-Result<std::vector<SourceMotion>> read_motion_file(const SourceFile& file) {
-  auto read = read_motion(BodyFile(file.path));
-  if (!read) return read.error();
+SourceMotion source_motion_of(ReadMotion read, const std::filesystem::path& path) {
   SourceMotion out;
-  out.motion = std::move(read->motion);
-  out.uncertainty = std::move(read->uncertainty);
+  out.motion = std::move(read.motion);
+  out.uncertainty = std::move(read.uncertainty);
   out.rates.file_hz = out.motion.rate.hz;
-  out.rates.file_is_guessed = read->rate_is_guessed;
+  out.rates.file_is_guessed = read.rate_is_guessed;
   out.figures.push_back(
-      {"bones_mm", 1000.0 * read->ignored_translation_m, std::nullopt, "", std::nullopt});
-  out.remarks = std::move(read->remarks);
-  if (const auto note = left_out(*read)) out.remarks.push_back(*note);
+      {"bones_mm", 1000.0 * read.ignored_translation_m, std::nullopt, "", std::nullopt});
+  out.remarks = std::move(read.remarks);
+  if (const auto note = left_out(read)) out.remarks.push_back(*note);
   if (const auto swapped = assess_exchanged_sides(
-          file.path, read->exchanged, "a .bones.toml file next to the motion")) {
-    out.remarks.push_back(swapped->cause + ": " + swapped->next);
+          path, read.exchanged, "a .bones.toml file next to the motion")) {
+    out.remarks.push_back(swapped->cause + ". Next: " + swapped->next);
     const int last = static_cast<int>(out.motion.poses.size()) - 1;
     out.problems.push_back({{0, last}, "sides", "", 1.0});
   }
+  return out;
+}
+
+/// Returns names of bodies for the animations of a glTF: their own, where these differ.
+std::vector<std::string> names_of_animations(const std::vector<std::string>& names) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const bool is_unique = std::ranges::count(names, names[i]) == 1;
+    out.push_back(is_unique && !names[i].empty() ? printable(names[i])
+                                                 : "animation " + std::to_string(i));
+  }
+  return out;
+}
+
+/// Reads a file of a body: its motion, or each animation of a glTF.
+Result<std::vector<SourceMotion>> read_motion_file(const SourceFile& file) {
+  BodyFile body(file.path);
+  auto first = read_motion(body);
+  if (!first) return first.error();
+  const std::vector<std::string> names = names_of_animations(first->animations);
   std::vector<SourceMotion> all;
-  all.push_back(std::move(out));
+  all.push_back(source_motion_of(*std::move(first), file.path));
+  if (names.size() < 2) return all;
+  all.front().body = names.front();
+  for (body.animation = 1; body.animation < names.size(); ++body.animation) {
+    auto next = read_motion(body);
+    if (!next) {
+      all.front().remarks.push_back(names[body.animation] +
+                                    " is left out: " + next.error().cause);
+      continue;
+    }
+    all.push_back(source_motion_of(*std::move(next), file.path));
+    all.back().body = names[body.animation];
+  }
   return all;
 }
 
@@ -67,6 +97,25 @@ Result<std::vector<SourceMotion>> read_by_kind(const SourceFile& file,
   if (file.kind == kRecipeKind) return read_recipe_source(file.path, {rate_hz});
   if (holds_markers(file)) return read_marker_source(file.path, {rate_hz});
   return read_motion_file(file);
+}
+
+void replace_all(std::string& text, const std::string& old, const std::string& by) {
+  if (old.empty()) return;
+  for (std::size_t at = text.find(old); at != std::string::npos;
+       at = text.find(old, at + by.size())) {
+    text.replace(at, old.size(), by);
+  }
+}
+
+/// Removes folders from remarks: the same file gives the same bytes in every folder.
+void remove_paths(const SourceFile& file, std::vector<std::string>& remarks) {
+  const std::string path = file.path.string();
+  for (std::string& remark : remarks) {
+    replace_all(remark, path + ": ", "");
+    replace_all(remark, path, file.path.filename().string());
+    if (!file.path.has_parent_path()) continue;
+    replace_all(remark, file.path.parent_path().string() + "/", "");
+  }
 }
 
 /// Sets the rate that counts, and adds a problem where stated rates differ.
@@ -130,6 +179,7 @@ Result<std::vector<SourceMotion>> read_source(const SourceFile& file,
     const Status ok = clean_motion(options.clean, is_solved(file), motion);
     if (!ok) return of_file(file.path, ok.error());
     std::ranges::sort(motion.figures, {}, &ClipFigure::name);
+    remove_paths(file, motion.remarks);
   }
   return all;
 }
