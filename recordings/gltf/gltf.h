@@ -81,14 +81,14 @@ struct ReadCharacterOptions {
                                                 const std::filesystem::path& path,
                                                 const ReadCharacterOptions& options = {});
 
-/// Writes a GLB of the skeleton in its rest pose with its skinned mesh and, unless
-/// `motion` is null, one animation of it, named `clip`: linear keys at the motion's rate,
-/// the first at time 0; neighbouring quaternions have the same sign; no scale. Nodes are
-/// named like the joints. glTF's own validator finds neither errors nor warnings. The
-/// file is replaced as a whole or not at all. Same input, same bytes. Errors: those of
-/// write_file(). Linear in vertices and frames. Preconditions: the mesh is bound to
-/// `skeleton`, which has one root, its first joint; the motion's poses have as many
-/// joints.
+/// Writes a GLB of the skeleton in its rest pose with its skinned mesh (with a skin, but
+/// no mesh if `mesh` is empty) and, unless `motion` is null, one animation of it, named
+/// `clip`: linear keys at the motion's rate, the first at time 0; neighbouring
+/// quaternions have the same sign; no scale. Nodes are named like the joints. glTF's own
+/// validator finds neither errors nor warnings. The file is replaced as a whole or not at
+/// all. Same input, same bytes. Errors: those of write_file(). Linear in vertices and
+/// frames. Preconditions: the mesh is bound to `skeleton`, which has one root, its first
+/// joint; the motion's poses have as many joints.
 [[nodiscard]] Status write_character(const std::filesystem::path& path,
                                      const Skeleton& skeleton,
                                      const SkinnedMesh& mesh,

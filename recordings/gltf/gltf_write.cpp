@@ -339,19 +339,22 @@ Status write_character(const std::filesystem::path& path,
                        const SkinnedMesh& mesh,
                        const Motion* motion,
                        std::string_view clip) {
-  MAREY_ASSERT(!skeleton.joints.empty() && !mesh.p_in_world.empty());
+  MAREY_ASSERT(!skeleton.joints.empty());
   MAREY_ASSERT(mesh.skin.size() == mesh.p_in_world.size());
   MAREY_ASSERT(mesh.normal_in_world.size() == mesh.p_in_world.size());
   const std::size_t joints = skeleton.joints.size();
   Json document{{"asset", {{"version", "2.0"}, {"generator", "marey"}}},
                 {"scene", 0},
-                {"scenes", Json::array({Json{{"nodes", Json::array({0, joints})}}})}};
+                {"scenes", Json::array({Json{{"nodes", Json::array({0})}}})}};
   std::string buffer;
   GltfBuilder builder(document, buffer);
   document["nodes"] = joint_nodes(skeleton);
-  // At the scene's root: the transforms above a skinned mesh are ignored.
-  document["nodes"].push_back({{"name", "body"}, {"mesh", 0}, {"skin", 0}});
-  add_mesh(document, builder, mesh, joints);
+  if (!mesh.p_in_world.empty()) {
+    // At the scene's root: the transforms above a skinned mesh are ignored.
+    document["scenes"][0]["nodes"].push_back(joints);
+    document["nodes"].push_back({{"name", "body"}, {"mesh", 0}, {"skin", 0}});
+    add_mesh(document, builder, mesh, joints);
+  }
   document["skins"] = Json::array({make_skin(builder, skeleton)});
   if (motion != nullptr && !motion->poses.empty()) {
     MAREY_ASSERT(motion->skeleton.joints.size() == joints);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/library/clip_record.h"
 #include "core/motion.h"
 #include "core/source.h"
 
@@ -29,6 +30,7 @@ struct NpzExtras {
   NpzContacts contacts;  ///< No names: not written.
   /// Time of the first frame on the recording's own clock; default: first_frame / rate.
   std::optional<double> start_s;
+  const ClipRecord* clip = nullptr;  ///< Clip of a library; null: none. Borrowed.
 };
 
 /// Returns numpy's archive (.npz) of a motion of F frames and J joints, uncompressed, so
@@ -51,10 +53,14 @@ struct NpzExtras {
 ///   source_names            (3,) text; optional
 ///   valid                   (F, J) bool: not inferred; optional
 ///   contact_names, contacts (K,) text, (F, K) bool; optional
+///   clip_id, licence        () text; optional
+///   labels, label_by        (L,) text; optional
+///   label_times_s           (L, 2) start and end since the first frame; optional
 ///
 /// The arrays from sigma_m to valid are present if uncertainty is given, contacts if
-/// contacts are given. Numbers are float64 unless stated otherwise. Quaternions are of
-/// length 1, and those of one joint keep their sign from frame to frame.
+/// contacts are given, clip_id to label_times_s if a clip is given. Numbers are float64
+/// unless stated otherwise. Quaternions are of length 1, and those of one joint keep
+/// their sign from frame to frame.
 ///
 /// Same input, same bytes. Errors (kBadInput): more than 4 GiB, the limit of
 /// read_npz(). Linear in frames times joints. Preconditions: one root, the first joint;

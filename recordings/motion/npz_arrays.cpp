@@ -80,7 +80,17 @@ void NpzArrays::add_integer(std::string_view name, std::int64_t value) {
   add(name, "<i8", {}, data);
 }
 
+void NpzArrays::add_text(std::string_view name, const std::string& text) {
+  add_texts_of_shape(name, {text}, {});
+}
+
 void NpzArrays::add_texts(std::string_view name, const std::vector<std::string>& texts) {
+  add_texts_of_shape(name, texts, {texts.size()});
+}
+
+void NpzArrays::add_texts_of_shape(std::string_view name,
+                                   const std::vector<std::string>& texts,
+                                   const NpyShape& shape) {
   std::vector<std::u32string> wide;
   std::size_t longest = 1;
   for (const std::string& text : texts) {
@@ -92,7 +102,7 @@ void NpzArrays::add_texts(std::string_view name, const std::vector<std::string>&
     text.resize(longest, U'\0');
     for (const char32_t letter : text) append(data, static_cast<std::uint32_t>(letter));
   }
-  add(name, "<U" + std::to_string(longest), {texts.size()}, data);
+  add(name, "<U" + std::to_string(longest), shape, data);
 }
 
 Error NpzInput::fail(std::string cause) const {

@@ -44,11 +44,17 @@ class NpzArrays {
   void add_integer(std::string_view name, std::int64_t value);
   /// Adds texts in numpy's form: four bytes for each letter, padded with zeros.
   void add_texts(std::string_view name, const std::vector<std::string>& texts);
+  /// Adds one text, an array without dimensions.
+  void add_text(std::string_view name, const std::string& text);
 
   /// Returns the archive; nullopt if it is larger than 4 GiB.
   [[nodiscard]] std::optional<std::string> finish() { return std::move(zip_).finish(); }
 
  private:
+  void add_texts_of_shape(std::string_view name,
+                          const std::vector<std::string>& texts,
+                          const NpyShape& shape);
+
   ZipWriter zip_;
 };
 

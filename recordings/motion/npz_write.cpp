@@ -103,6 +103,23 @@ void add_uncertainty(NpzArrays& arrays,
   arrays.add("valid", "|b1", shape, valid);
 }
 
+void add_clip(NpzArrays& arrays, const ClipRecord& clip) {
+  arrays.add_text("clip_id", clip.clip_id);
+  arrays.add_text("licence", clip.provenance.licence);
+  std::vector<std::string> texts;
+  std::vector<std::string> authors;
+  std::string times;
+  for (const ClipLabel& label : clip.labels) {
+    texts.push_back(label.text);
+    authors.push_back(label.by);
+    append(times, label.start_s);
+    append(times, label.end_s);
+  }
+  arrays.add_texts("labels", texts);
+  arrays.add_texts("label_by", authors);
+  arrays.add("label_times_s", "<f8", {texts.size(), 2}, times);
+}
+
 }  // namespace
 
 Result<std::string> npz_bytes(const Motion& motion, const NpzExtras& extras) {
@@ -131,6 +148,7 @@ Result<std::string> npz_bytes(const Motion& motion, const NpzExtras& extras) {
     arrays.add_texts("contact_names", names);
     arrays.add("contacts", "|b1", {frames, names.size()}, data);
   }
+  if (extras.clip != nullptr) add_clip(arrays, *extras.clip);
   if (auto bytes = arrays.finish()) return *std::move(bytes);
   return bad_input("", "the motion takes more than 4 GiB", "write fewer frames");
 }
