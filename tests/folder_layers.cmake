@@ -13,10 +13,10 @@ set(retarget_LAYERS
   base constraints bones body character contacts feet balance hands motion
   adapt/plan adapt/kernel adapt)
 set(edit_LAYERS signal state find filter splice ops markers .)
-set(library_LAYERS clips features quality search duplicates)
+set(library_LAYERS clips features quality search duplicates export)
 set(recordings_LAYERS base body edit takes motion gltf markers print session library)
 set(live_LAYERS udp vmc page web)
 set(app_LAYERS
   shell motion pages adapt convert print plan record check markers process retarget
-  live_chain view edit library/sources library/find library/labels
-  library/build library/check library live inspect .)
+  live_chain view edit library/sources library/find library/labels library/build
+  library/check library live inspect .)
