@@ -13,6 +13,7 @@
 #include "recordings/base/quoted_cells.h"
 #include "recordings/base/table_cells.h"
 
+// Private to recordings/library: what the readers of tables of labels share.
 namespace marey::recordings {
 
 /// Reads a table of labels/ line by line. Stores the first mistake, with file, line and

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "app/edit/marker_edit_events.h"
+#include "app/edit/marker_edit_inputs.h"
 #include "app/library/sources/source_id.h"
 #include "app/markers/fit_run.h"
 #include "app/markers/fit_words.h"

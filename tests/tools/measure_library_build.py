@@ -4,7 +4,7 @@
 """Measures `marey library build` on a folder of motions: time and memory from nothing and
 without changes, the same bytes in every way of building, and builds that are killed.
 
-    python3 benchmarks/library/measure_build.py build/release/app/marey FOLDER [KILLS]
+    python3 tests/tools/measure_library_build.py build/release/app/marey FOLDER [KILLS]
 
 FOLDER has the motions. All libraries are made in a temporary folder. The bars are those
 of docs/accuracy/library_build.md."""
