@@ -1,0 +1,266 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "recordings/base/atomic_file.h"
+#include "recordings/library/index_head.h"
+#include "recordings/library/library_paths.h"
+#include "recordings/library/library_records.h"
+#include "recordings/library/version_file.h"
+#include "tests/app/library/build/walk_library.h"
+#include "tests/support/files/text_file.h"
+#include "tests/support/program/paths.h"
+#include "tests/support/program/run_program.h"
+
+namespace marey::app {
+namespace {
+
+namespace fs = std::filesystem;
+using marey::testing::program;
+using marey::testing::ProgramRun;
+using marey::testing::read_text;
+using marey::testing::run_program;
+using recordings::LibraryPaths;
+
+ProgramRun library_command(std::vector<std::string> words) {
+  words.insert(words.begin(), "library");
+  return run_program(program(), words);
+}
+
+ProgramRun build(const fs::path& library, const std::string& jobs = "2") {
+  return library_command({"build", library.string(), "--jobs", jobs, "--json"});
+}
+
+nlohmann::json result(const ProgramRun& run) {
+  return nlohmann::json::parse(run.out, nullptr, false);
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  ASSERT_TRUE(recordings::write_file(file, text));
+}
+
+TEST(LibraryBuild, MakesAClipOfEverySource) {
+  const WalkLibrary walks(3);
+  const fs::path library = walks.make("library");
+  const ProgramRun run = build(library);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(result(run).at("clips"), 3);
+  EXPECT_EQ(result(run).at("version"), 1);
+  const auto records = recordings::read_library_records(LibraryPaths(library).index());
+  ASSERT_TRUE(records) << records.error().message();
+  ASSERT_EQ(records->size(), 3U);
+  EXPECT_EQ(records->front().name, "01");
+  EXPECT_EQ(records->front().frame_count(), 70);
+  EXPECT_EQ(records->front().provenance.licence, "CC0-1.0");
+  EXPECT_FALSE(records->front().figures.empty());
+}
+
+TEST(LibraryBuild, TheSameBytesHoweverItIsBuilt) {
+  const WalkLibrary walks(5);
+  const fs::path one = walks.make("one");
+  const fs::path two = walks.make("other/two");
+  const fs::path shards = walks.make("shards");
+  ASSERT_EQ(build(one, "1").exit_code, 0);
+  ASSERT_EQ(build(two, "2").exit_code, 0);
+  ASSERT_EQ(library_command({"plan", shards.string(), "--shards", "3"}).exit_code, 0);
+  for (const char* shard : {"2", "3", "1", "1"}) {
+    const ProgramRun work =
+        library_command({"work", shards.string(), "--shard", shard, "--jobs", "1"});
+    EXPECT_EQ(work.exit_code, 0) << work.err;
+  }
+  const ProgramRun merge = library_command({"merge", shards.string()});
+  ASSERT_EQ(merge.exit_code, 0) << merge.err;
+  EXPECT_EQ(built_files(one), built_files(two));
+  EXPECT_EQ(built_files(one), built_files(shards));
+  EXPECT_FALSE(fs::exists(LibraryPaths(shards).shards()));
+}
+
+TEST(LibraryBuild, ReadsNoSourceAgainIfNothingChanged) {
+  const WalkLibrary walks(3);
+  const fs::path library = walks.make("library");
+  ASSERT_EQ(build(library).exit_code, 0);
+  const auto before = built_files(library);
+  const ProgramRun again = build(library);
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_EQ(result(again).at("sources_read"), 0);
+  EXPECT_EQ(result(again).at("is_new_version"), false);
+  EXPECT_EQ(built_files(library), before);
+}
+
+TEST(LibraryBuild, ReadsOnlyWhatChanged) {
+  const WalkLibrary walks(3);
+  const fs::path library = walks.make("library");
+  ASSERT_EQ(build(library).exit_code, 0);
+  std::ofstream(walks.walk(2), std::ios::app) << "\n";
+  const ProgramRun changed = build(library);
+  EXPECT_EQ(changed.exit_code, 0) << changed.err;
+  EXPECT_EQ(result(changed).at("sources_read"), 1);
+  EXPECT_EQ(result(changed).at("version"), 2);
+  const ProgramRun diff = library_command({"diff", library.string(), "1", "2", "--json"});
+  const auto changes = nlohmann::json::parse(diff.out, nullptr, false);
+  ASSERT_EQ(changes.size(), 1U) << diff.out;
+  EXPECT_EQ(changes[0].at("name"), "02");
+  EXPECT_EQ(changes[0].at("source"), true);
+}
+
+TEST(LibraryBuild, AChangedThresholdReadsNoSource) {
+  const WalkLibrary walks(2);
+  const fs::path library = walks.make("library");
+  ASSERT_EQ(build(library).exit_code, 0);
+  // Sources that cannot be read any more, with the same state: reading one would fail.
+  const std::string settings = read_text(library / "library.toml");
+  write_text(library / "library.toml", settings + "[quality]\nslide_cm_s = [0, 0]\n");
+  for (int number : {1, 2}) fs::permissions(walks.walk(number), fs::perms::none);
+  const ProgramRun run = build(library);
+  for (int number : {1, 2}) fs::permissions(walks.walk(number), fs::perms::owner_all);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+}
+
+TEST(LibraryBuild, OneBadSourceCostsOnlyItself) {
+  const WalkLibrary walks(2);
+  write_text(walks.walks() / "broken.bvh", "HIERARCHY\nROOT hips\n{\n");
+  const fs::path library = walks.make("library");
+  const ProgramRun run = build(library);
+  EXPECT_EQ(run.exit_code, 4) << run.err;
+  EXPECT_EQ(result(run).at("clips"), 2);
+  const auto failures = result(run).at("failures");
+  ASSERT_EQ(failures.size(), 1U);
+  EXPECT_NE(failures[0].at("where").get<std::string>().find("broken.bvh"),
+            std::string::npos);
+  std::string told;
+  for (const auto& entry : fs::recursive_directory_iterator(library / "failed")) {
+    if (entry.is_regular_file()) told += read_text(entry.path());
+  }
+  EXPECT_NE(told.find("broken.bvh"), std::string::npos) << told;
+  EXPECT_NE(told.find("Next:"), std::string::npos) << told;
+  // The failure is remembered, and goes with its source.
+  EXPECT_EQ(result(build(library)).at("sources_read"), 0);
+  fs::remove(walks.walks() / "broken.bvh");
+  EXPECT_EQ(build(library).exit_code, 0);
+  EXPECT_FALSE(fs::exists(library / "failed"));
+}
+
+TEST(LibraryBuild, ASourceWithTheSameBytesGivesNoOtherClip) {
+  const WalkLibrary walks(2);
+  fs::copy_file(walks.walk(1), walks.walks() / "copy.bvh");
+  const fs::path library = walks.make("library");
+  const ProgramRun run = build(library);
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(result(run).at("clips"), 2);
+  EXPECT_NE(result(run).at("remarks").dump().find("same bytes"), std::string::npos);
+}
+
+TEST(LibraryBuild, MakesDamagedObjectsAgain) {
+  const WalkLibrary walks(2);
+  const fs::path library = walks.make("library");
+  ASSERT_EQ(build(library).exit_code, 0);
+  const auto whole = built_files(library);
+  std::mt19937 random(7);
+  for (const auto& [name, digest] : whole) {
+    if (!name.starts_with("objects") && name != "library.sqlite") continue;
+    if (name.ends_with(".npz")) {
+      fs::remove(library / name);
+    } else {
+      fs::resize_file(library / name, random() % fs::file_size(library / name));
+    }
+    const ProgramRun run = build(library);
+    EXPECT_EQ(run.exit_code, 0) << name << ": " << run.err;
+  }
+  // An index that is current hides damaged objects, until it is made again.
+  fs::remove(library / "library.sqlite");
+  EXPECT_EQ(build(library).exit_code, 0);
+  EXPECT_EQ(built_files(library), whole);
+}
+
+TEST(LibraryBuild, TwoBuildsAtOnceDoNotMeet) {
+  const WalkLibrary walks(1);
+  const fs::path library = walks.make("library");
+  const auto lock = LibraryPaths(library).lock();
+  write_text(lock, "another-host 17 4711\n");
+  const ProgramRun other = build(library);
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_NE(other.err.find("another-host"), std::string::npos) << other.err;
+  // A process of this host that has ended.
+  std::string host(256, '\0');
+  ASSERT_EQ(gethostname(host.data(), host.size()), 0);
+  write_text(lock, std::string(host.c_str()) + " 999999999 1\n");
+  EXPECT_EQ(build(library).exit_code, 0);
+  EXPECT_FALSE(fs::exists(lock));
+}
+
+TEST(LibraryBuild, MergeNamesUnfinishedShards) {
+  const WalkLibrary walks(4);
+  const fs::path library = walks.make("library");
+  ASSERT_EQ(library_command({"plan", library.string(), "--shards", "4"}).exit_code, 0);
+  ASSERT_EQ(library_command({"work", library.string(), "--shard", "2"}).exit_code, 0);
+  const ProgramRun merge = library_command({"merge", library.string()});
+  EXPECT_EQ(merge.exit_code, 3);
+  EXPECT_NE(merge.err.find("1, 3, 4"), std::string::npos) << merge.err;
+  // Settings that change meanwhile belong to another plan.
+  write_text(library / "library.toml",
+             read_text(library / "library.toml") + "[segment]\nby = \"steps\"\n");
+  EXPECT_EQ(library_command({"work", library.string(), "--shard", "1"}).exit_code, 3);
+}
+
+/// Runs a build and kills it after some time.
+void kill_build(const fs::path& library, std::chrono::microseconds after) {
+  std::vector<std::string> words = {program(), "library", "build", library.string()};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t quiet;
+  posix_spawn_file_actions_init(&quiet);
+  posix_spawn_file_actions_addopen(&quiet, 1, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&quiet, 2, "/dev/null", O_WRONLY, 0);
+  pid_t child = -1;
+  ASSERT_EQ(posix_spawn(&child, arguments[0], &quiet, nullptr, arguments.data(), environ),
+            0);
+  posix_spawn_file_actions_destroy(&quiet);
+  std::this_thread::sleep_for(after);
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+}
+
+TEST(LibraryBuild, AKilledBuildLeavesTheLastVersionAndGoesOn) {
+  const WalkLibrary walks(6);
+  const fs::path whole = walks.make("whole");
+  ASSERT_EQ(build(whole).exit_code, 0);
+  const fs::path library = walks.make("killed");
+  std::mt19937 random(20);
+  constexpr int kKills = 12;
+  constexpr unsigned kMax_us = 60'000;
+  for (int i = 0; i < kKills; ++i) {
+    kill_build(library, std::chrono::microseconds(random() % kMax_us));
+    const LibraryPaths paths(library);
+    if (!fs::exists(paths.index())) continue;
+    EXPECT_TRUE(recordings::read_library_records(paths.index()));
+    const auto rows = recordings::search_file(paths.index(), "features.f32");
+    ASSERT_TRUE(rows);
+    EXPECT_TRUE(fs::exists(*rows));
+  }
+  EXPECT_EQ(build(library).exit_code, 0);
+  EXPECT_EQ(built_files(library), built_files(whole));
+}
+
+TEST(LibraryBuild, RefusesAFolderWithoutSettings) {
+  const testing::ScratchFolder folder;
+  const ProgramRun run = build(folder.path());
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("library add"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace marey::app
