@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/library/export/export_folder.h"
+
+#include <csignal>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include "recordings/base/atomic_file.h"
+#include "tests/app/library/export/export_scene.h"
+#include "tests/support/program/scratch_folder.h"
+
+namespace marey::app {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ExportScene;
+using testing::ScratchFolder;
+
+std::string cause_of(const fs::path& out, bool replaces) {
+  const Status status = check_export_folder(out, replaces);
+  return status ? "" : status.error().cause;
+}
+
+Status write_export(const fs::path& out, const std::string& text, bool replaces = false) {
+  auto folder = ExportFolder::create(out, replaces);
+  if (!folder) return folder.error();
+  const Status ok = recordings::write_file(folder->path() / "sub/a.txt", text);
+  return ok ? folder->commit() : ok;
+}
+
+std::string text_in(const fs::path& out) {
+  const auto text = recordings::read_file(out / "sub/a.txt");
+  return text ? *text : "";
+}
+
+TEST(ExportFolder, AppearsAsAWholeWithAManifest) {
+  const ScratchFolder folder;
+  const fs::path out = folder / "new/deeper/";
+  ASSERT_TRUE(write_export(out, "abc"));
+  EXPECT_EQ(text_in(out), "abc");
+  EXPECT_EQ(*recordings::read_file(out / kManifest),
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad  "
+            "sub/a.txt\n");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "new"), {}), 1);
+}
+
+TEST(ExportFolder, IsRefusedWhereOthersHaveFiles) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(recordings::write_file(folder / "full/notes.txt", "x"));
+  EXPECT_EQ(cause_of(folder / "full", true),
+            "it is not empty, and no earlier export of marey");
+  EXPECT_FALSE(cause_of(folder / "full/notes.txt", true).empty());
+  EXPECT_EQ(cause_of(folder / "new", false), "");
+  fs::create_directory(folder / "empty");
+  EXPECT_EQ(cause_of(folder / "empty", false), "");
+  ASSERT_TRUE(write_export(folder / "empty", "a"));
+  EXPECT_EQ(cause_of(folder / "empty", false), "it is an earlier export");
+  EXPECT_EQ(cause_of(folder / "empty", true), "");
+  ASSERT_TRUE(recordings::write_file(folder / "empty/mine.txt", "x"));
+  EXPECT_EQ(cause_of(folder / "empty", true),
+            "\"mine.txt\" in it is not a file of an export");
+}
+
+TEST(ExportFolder, ReplacesAnEarlierExportAsAWhole) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_export(folder / "e", "first"));
+  EXPECT_FALSE(write_export(folder / "e", "second"));
+  EXPECT_EQ(text_in(folder / "e"), "first");
+  ASSERT_TRUE(write_export(folder / "e", "second", true));
+  EXPECT_EQ(text_in(folder / "e"), "second");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(ExportFolder, LeavesNothingWithoutCommit) {
+  const ScratchFolder folder;
+  {
+    auto one = ExportFolder::create(folder / "e", false);
+    ASSERT_TRUE(one);
+    ASSERT_TRUE(recordings::write_file(one->path() / "a", "x"));
+    const auto two = ExportFolder::create(folder / "e", false);
+    ASSERT_FALSE(two);
+    EXPECT_EQ(two.error().cause, "another process is writing an export to it");
+  }
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(ExportFolder, RemovesThePartialFolderOfAKilledProcess) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(recordings::write_file(folder / ".e.marey-partial/old", "x"));
+  ASSERT_TRUE(write_export(folder / "e", "a"));
+  EXPECT_FALSE(fs::exists(folder / "e/old"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+}
+
+// A limit of the size of files stands for a full disk.
+TEST(ExportFolder, ReportsAFullDiskAndKeepsTheEarlierExport) {
+  const ExportScene scene;
+  ExportOptions options = scene.options(ExportFormat::kNpz, "e");
+  ASSERT_TRUE(scene.run(options));
+  const std::string before = testing::hash_folder(options.out);
+  options.replaces = true;
+  rlimit old{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
+  const rlimit small{20000, old.rlim_max};
+  std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const auto report = scene.run(options);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &old), 0);
+  std::signal(SIGXFSZ, SIG_DFL);
+  ASSERT_FALSE(report);
+  EXPECT_EQ(report.error().code, Errc::kDevice) << report.error().message();
+  EXPECT_EQ(testing::hash_folder(options.out), before);
+  EXPECT_EQ(std::distance(fs::directory_iterator(scene.out("")), {}), 1);
+}
+
+}  // namespace
+}  // namespace marey::app
