@@ -8,6 +8,11 @@
 
 #include "app/library/build/build_commands.h"
 #include "app/library/build/version_commands.h"
+#include "app/library/check/check_command.h"
+#include "app/library/export/export_commands.h"
+#include "app/library/find/query_command.h"
+#include "app/library/find/similar_command.h"
+#include "app/library/labels/annotate_command.h"
 #include "app/shell/console.h"
 #include "app/shell/exit_codes.h"
 
@@ -17,6 +22,11 @@ namespace marey::app {
 struct LibraryArguments {
   LibraryBuildArguments build;
   LibraryVersionArguments versions;
+  LibraryCheckArguments check;
+  LibraryQueryArguments query;
+  LibrarySimilarArguments similar;
+  LibraryAnnotateArguments annotate;
+  LibraryExportArguments exported;
 };
 
 /// Adds the command `library` with its commands.

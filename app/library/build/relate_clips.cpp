@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "library/duplicates/find_duplicates.h"
+#include "library/export/split_clips.h"
 #include "library/features/body_features.h"
 #include "library/search/clip_rows.h"
 
@@ -56,6 +57,12 @@ Status add_duplicates(const BuildInputs& inputs,
   return Done{};
 }
 
+void add_splits(const BuildInputs& inputs, std::vector<ClipRecord>& records) {
+  const auto splits =
+      library::split_clips(records, inputs.settings.splits, library::SplitBy::kSubject);
+  for (std::size_t i = 0; i < records.size(); ++i) records[i].split = splits[i];
+}
+
 }  // namespace
 
 Status relate_clips(const BuildInputs& inputs,
@@ -64,7 +71,9 @@ Status relate_clips(const BuildInputs& inputs,
                     std::vector<std::string>& remarks) {
   const Status labelled = add_people_labels(inputs, records, remarks);
   if (!labelled) return labelled;
-  return add_duplicates(inputs, search, records);
+  if (const Status ok = add_duplicates(inputs, search, records); !ok) return ok;
+  add_splits(inputs, records);
+  return Done{};
 }
 
 }  // namespace marey::app
