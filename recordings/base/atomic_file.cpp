@@ -114,6 +114,14 @@ bool is_partial_of(std::string_view found, std::string_view name) {
          word.find_first_not_of("0123456789", 1) == std::string_view::npos;
 }
 
+/// Removes the partial files that no process has locked.
+void remove_unlocked(const std::vector<fs::path>& partials) {
+  for (const fs::path& partial : partials) {
+    const Lock lock(partial);
+    if (lock.is_ours_alone()) ::unlink(partial.c_str());
+  }
+}
+
 /// Removes partial files of the same file left by killed processes of this user: regular
 /// files without a process's lock. Links are neither followed nor removed.
 void remove_stale(const fs::path& path) {
@@ -126,10 +134,7 @@ void remove_stale(const fs::path& path) {
        it.increment(problem)) {
     if (is_partial_of(it->path().filename().string(), name)) stale.push_back(it->path());
   }
-  for (const fs::path& partial : stale) {
-    const Lock lock(partial);
-    if (lock.is_ours_alone()) ::unlink(partial.c_str());
-  }
+  remove_unlocked(stale);
 }
 
 std::string reason(int error) {
@@ -272,6 +277,19 @@ Status AtomicFile::commit(OnDisk when) {
   unlock();
   unregister(partial_.string());
   return Done{};
+}
+
+void remove_abandoned_files(const fs::path& folder) {
+  std::vector<fs::path> abandoned;
+  std::error_code problem;
+  for (auto it = fs::recursive_directory_iterator(folder, problem);
+       !problem && it != fs::recursive_directory_iterator();
+       it.increment(problem)) {
+    const std::string name = it->path().filename().string();
+    const fs::path stem = it->path().stem();  // "NAME.WORD"
+    if (is_partial_of(name, stem.stem().string())) abandoned.push_back(it->path());
+  }
+  remove_unlocked(abandoned);
 }
 
 void visit_partial_files(void (*visit)(const char* path)) noexcept {

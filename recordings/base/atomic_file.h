@@ -71,6 +71,10 @@ class AtomicFile {
   bool open_ = false;
 };
 
+/// Removes all partial files below `folder` that killed processes of this user left.
+/// Those of running processes stay. Linear in files.
+void remove_abandoned_files(const std::filesystem::path& folder);
+
 /// Calls `visit` with the path of each partial file that this process is writing. Only
 /// for a signal handler that removes them and then ends the process. Async-signal-safe if
 /// `visit` is. May miss a file that another thread opens at the same moment, and all but

@@ -19,6 +19,7 @@
 #include "app/shell/option_checks.h"
 #include "app/shell/stop_signal.h"
 #include "core/base/format_text.h"
+#include "recordings/base/atomic_file.h"
 #include "recordings/library/library_paths.h"
 
 namespace marey::app {
@@ -34,6 +35,14 @@ constexpr std::size_t kMaxPrinted = 10;
 int jobs_of(const LibraryBuildArguments& args) {
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
   return args.jobs > 0 ? args.jobs : std::max(cores, 1);
+}
+
+/// Removes what killed builds left unfinished.
+void remove_left_files(const fs::path& library) {
+  const recordings::LibraryPaths paths(library);
+  for (const fs::path& folder : {paths.objects(), paths.search(), paths.versions()}) {
+    recordings::remove_abandoned_files(folder);
+  }
 }
 
 Exit report_build(const Result<BuiltLibrary>& built,
@@ -184,6 +193,7 @@ Exit run_library_build(const LibraryBuildArguments& args, Console& console) {
   if (!inputs) return console.fail(inputs.error());
   const auto lock = LibraryLock::take(inputs->library);
   if (!lock) return console.fail(lock.error());
+  remove_left_files(inputs->library);
   return report_build(build_library(*inputs, jobs_of(args), console), args, console);
 }
 

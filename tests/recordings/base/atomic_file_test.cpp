@@ -152,6 +152,29 @@ TEST(AtomicFile, KeepsTheFilesOfALivingProcess) {
   close(pipe_ends[1]);
 }
 
+TEST(AtomicFile, AbandonedFilesBelowAFolderAreRemoved) {
+  const ScratchFolder folder;
+  int pipe_ends[2] = {-1, -1};
+  ASSERT_EQ(pipe(pipe_ends), 0);
+  fs::create_directories(folder / "deep");
+  const pid_t killed = start_writer(folder / "deep/a.txt", pipe_ends[1], true);
+  ASSERT_EQ(waitpid(killed, nullptr, 0), killed);
+  const pid_t living = start_writer(folder / "b.txt", pipe_ends[1], false);
+  char byte = 0;
+  ASSERT_EQ(read(pipe_ends[0], &byte, 1), 1);
+  ASSERT_TRUE(write_file(folder / "c.txt", "whole"));
+  ASSERT_FALSE(fs::is_empty(folder / "deep"));
+  remove_abandoned_files(folder.path());
+  EXPECT_TRUE(fs::is_empty(folder / "deep"));
+  EXPECT_EQ(files_in(folder).size(), 3U);
+  kill(living, SIGKILL);
+  ASSERT_EQ(waitpid(living, nullptr, 0), living);
+  remove_abandoned_files(folder.path());
+  EXPECT_EQ(files_in(folder).size(), 2U);
+  close(pipe_ends[0]);
+  close(pipe_ends[1]);
+}
+
 TEST(AtomicFile, NeitherFollowsNorRemovesLinksAndOtherNames) {
   const ScratchFolder folder;
   ASSERT_TRUE(write_file(folder / "victim", "mine"));
