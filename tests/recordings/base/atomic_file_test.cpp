@@ -159,9 +159,11 @@ TEST(AtomicFile, AbandonedFilesBelowAFolderAreRemoved) {
   fs::create_directories(folder / "deep");
   const pid_t killed = start_writer(folder / "deep/a.txt", pipe_ends[1], true);
   ASSERT_EQ(waitpid(killed, nullptr, 0), killed);
-  const pid_t living = start_writer(folder / "b.txt", pipe_ends[1], false);
+  int living_ends[2] = {-1, -1};
+  ASSERT_EQ(pipe(living_ends), 0);
+  const pid_t living = start_writer(folder / "b.txt", living_ends[1], false);
   char byte = 0;
-  ASSERT_EQ(read(pipe_ends[0], &byte, 1), 1);
+  ASSERT_EQ(read(living_ends[0], &byte, 1), 1);
   ASSERT_TRUE(write_file(folder / "c.txt", "whole"));
   ASSERT_FALSE(fs::is_empty(folder / "deep"));
   remove_abandoned_files(folder.path());
@@ -171,8 +173,9 @@ TEST(AtomicFile, AbandonedFilesBelowAFolderAreRemoved) {
   ASSERT_EQ(waitpid(living, nullptr, 0), living);
   remove_abandoned_files(folder.path());
   EXPECT_EQ(files_in(folder).size(), 2U);
-  close(pipe_ends[0]);
-  close(pipe_ends[1]);
+  for (const int end : {pipe_ends[0], pipe_ends[1], living_ends[0], living_ends[1]}) {
+    close(end);
+  }
 }
 
 TEST(AtomicFile, NeitherFollowsNorRemovesLinksAndOtherNames) {
