@@ -6,8 +6,6 @@
 // Time and memory of library.sqlite: simulated records (100 000 clips unless stated, with
 // ten labels and 20 figures each) are written, queried and listed. Every query opens the
 // index again, as a new process does. docs/accuracy/library.md has figures.
-#include "recordings/library/library_index.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -18,6 +16,7 @@
 #include <vector>
 
 #include "core/base/stopwatch.h"
+#include "recordings/library/library_index.h"
 #include "recordings/library/library_records.h"
 #include "recordings/library/select_clips.h"
 #include "tests/support/files/simulated_records.h"
@@ -80,10 +79,12 @@ int run(int clips) {
   }
   print_row("library.sqlite", static_cast<double>(fs::file_size(index)) / 1e6, "MB", "");
   measure_queries(index);
-  print_row("list: page of 3000 clips", median_ms([&] {
+  print_row("list: page of 3000 clips",
+            median_ms([&] {
               (void)needed(recordings::read_clip_summaries(index, clips / 2, 3000));
             }),
-            "ms", "1000 ms");
+            "ms",
+            "1000 ms");
   const Stopwatch watch;
   (void)needed(recordings::read_library_records(index));
   print_row("all records read", watch.seconds(), "s", "");
@@ -92,31 +93,55 @@ int run(int clips) {
 
 void measure_queries(const fs::path& index) {
   using recordings::ClipSelector;
-  const auto row = [&](const char* what, const std::function<Result<recordings::ClipSet>(const ClipSelector&)>& select) {
-    long found = 0;
-    const double ms = median_ms([&] {
-      const auto set = select(needed(ClipSelector::open(index)));
-      found = std::count(needed(set).begin(), needed(set).end(), true);
-    });
-    print_row((std::string(what) + ", " + std::to_string(found) + " clips").c_str(), ms, "ms", "100 ms");
-  };
+  const auto row =
+      [&](const char* what,
+          const std::function<Result<recordings::ClipSet>(const ClipSelector&)>& select) {
+        long found = 0;
+        const double ms = median_ms([&] {
+          const auto set = select(needed(ClipSelector::open(index)));
+          found = std::count(needed(set).begin(), needed(set).end(), true);
+        });
+        print_row((std::string(what) + ", " + std::to_string(found) + " clips").c_str(),
+                  ms,
+                  "ms",
+                  "100 ms");
+      };
   using recordings::Comparison;
   row("label", [](const auto& s) { return s.with_label("content:walk"); });
   row("label part", [](const auto& s) { return s.with_part_of_label("walk"); });
-  row("figure", [](const auto& s) { return s.with_figure("speed_m_s", Comparison::kGreater, 1.2); });
-  row("figure rare", [](const auto& s) { return s.with_figure("slide_cm_s", Comparison::kGreater, 19.9); });
+  row("figure", [](const auto& s) {
+    return s.with_figure("speed_m_s", Comparison::kGreater, 1.2);
+  });
+  row("figure rare", [](const auto& s) {
+    return s.with_figure("slide_cm_s", Comparison::kGreater, 19.9);
+  });
   row("quality", [](const auto& s) { return s.with_quality(Verdict::kPass); });
-  row("licence", [](const auto& s) { return s.with_text(recordings::ClipText::kLicence, "unknown"); });
-  row("kind", [](const auto& s) { return s.with_text(recordings::ClipText::kKind, "bvh"); });
-  row("name part", [](const auto& s) { return s.with_part_of_text(recordings::ClipText::kName, "walk"); });
-  row("text", [](const auto& s) { return s.with_words(std::vector<std::string>{"turn", "left"}); });
-  row("seconds", [](const auto& s) { return s.with_number(recordings::ClipNumber::kSeconds, Comparison::kGreater, 3); });
-  row("frames", [](const auto& s) { return s.with_number(recordings::ClipNumber::kFrames, Comparison::kGreater, 100); });
+  row("licence", [](const auto& s) {
+    return s.with_text(recordings::ClipText::kLicence, "unknown");
+  });
+  row("kind",
+      [](const auto& s) { return s.with_text(recordings::ClipText::kKind, "bvh"); });
+  row("name part", [](const auto& s) {
+    return s.with_part_of_text(recordings::ClipText::kName, "walk");
+  });
+  row("text", [](const auto& s) {
+    return s.with_words(std::vector<std::string>{"turn", "left"});
+  });
+  row("seconds", [](const auto& s) {
+    return s.with_number(recordings::ClipNumber::kSeconds, Comparison::kGreater, 3);
+  });
+  row("frames", [](const auto& s) {
+    return s.with_number(recordings::ClipNumber::kFrames, Comparison::kGreater, 100);
+  });
   row("event", [](const auto& s) { return s.with_event("left.strike"); });
   row("problem", [](const auto& s) { return s.with_problem("spike"); });
-  row("relation", [](const auto& s) { return s.with_label("hand_right above head", 0.3); });
-  row("origin", [](const auto& s) { return s.with_part_of_text(recordings::ClipText::kPath, "take_0001"); });
-  row("body", [](const auto& s) { return s.with_text(recordings::ClipText::kBody, "second"); });
+  row("relation",
+      [](const auto& s) { return s.with_label("hand_right above head", 0.3); });
+  row("origin", [](const auto& s) {
+    return s.with_part_of_text(recordings::ClipText::kPath, "take_0001");
+  });
+  row("body",
+      [](const auto& s) { return s.with_text(recordings::ClipText::kBody, "second"); });
 }
 
 }  // namespace

@@ -72,6 +72,12 @@ std::vector<int> every_clip(int count) {
   return clips;
 }
 
+bool is_left_out(int clip, const FindSimilarOptions& options) {
+  if (options.skipped_clip == clip) return true;
+  return options.searched != nullptr &&
+         !(*options.searched)[static_cast<std::size_t>(clip)];
+}
+
 // Clips in the order in which they are compared exactly. A good order tightens the bound
 // early, but does not change the result.
 std::vector<int> candidates_of(std::span<const float> query,
@@ -84,10 +90,7 @@ std::vector<int> candidates_of(std::span<const float> query,
     hits = scan_windows(query, library.windows);
     if (hits.empty()) return every_clip(library.features.clip_count());
   }
-  if (options.skipped_clip) {
-    std::erase_if(hits,
-                  [&](const ScanHit& h) { return h.clip == *options.skipped_clip; });
-  }
+  std::erase_if(hits, [&](const ScanHit& h) { return is_left_out(h.clip, options); });
   keep_nearest(hits,
                options.exact ? std::numeric_limits<int>::max() : options.candidates);
   std::vector<int> clips;
@@ -105,6 +108,9 @@ std::vector<SimilarMotion> find_similar(std::span<const float> query,
   MAREY_ASSERT(library.features.columns == kFeatureStride &&
                library.windows.columns == kWindowFloats &&
                library.wholes.columns == kWholeFloats);
+  MAREY_ASSERT(options.searched == nullptr ||
+               options.searched->size() ==
+                   static_cast<std::size_t>(library.features.clip_count()));
   std::vector<SimilarMotion> found;
   if (query.empty() || options.top <= 0) return found;
   std::vector<float> mirrored;
@@ -118,7 +124,7 @@ std::vector<SimilarMotion> find_similar(std::span<const float> query,
   WarpScratch scratch;
   double bound = std::numeric_limits<double>::infinity();
   for (const int clip : candidates_of(query, library, options)) {
-    if (options.skipped_clip == clip) continue;
+    if (is_left_out(clip, options)) continue;
     const auto match =
         warp_distance(query, library.features.rows(clip), ends, scratch, bound);
     if (!match) continue;

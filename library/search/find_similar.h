@@ -31,6 +31,8 @@ struct FindSimilarOptions {
   int candidates = 800;
   /// A clip that is left out: the query's own.
   std::optional<int> skipped_clip;
+  /// The clips that are searched, true by number; nullptr: all. An entry per clip.
+  const std::vector<bool>* searched = nullptr;
 };
 
 /// A part of a clip that is similar to the query.

@@ -61,6 +61,10 @@ class ClipReader {
       out.body = clip_.text(3);
       out.first_frame = whole(clip_, 4);
       out.last_frame = whole(clip_, 5);
+      const std::int64_t more = std::int64_t{out.last_frame} - out.first_frame;
+      if (more < 0 || more >= std::numeric_limits<int>::max()) {
+        fail("it is damaged: the frames of a clip are wrong");
+      }
       out.rate_hz = clip_.number(6);
       out.rate_by = word<RateBasis>(clip_, 7);
       out.object_key = clip_.text(8);

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recordings/library/open_index.h"
 
+#include <cstdint>
 #include <limits>
+#include <system_error>
 #include <utility>
 
 #include "recordings/library/library_index.h"
@@ -29,6 +31,13 @@ Result<Database> open_index(const std::filesystem::path& path) {
   }
   if (setting_of(database->get(), "user_version") != kLibraryIndexVersion) {
     return bad_index(path, "another version of marey made it");
+  }
+  // SQLite itself checks that all pages are there, but not that the last one is whole.
+  const std::int64_t page = setting_of(database->get(), "page_size");
+  std::error_code problem;
+  const auto bytes = std::filesystem::file_size(path, problem);
+  if (page <= 0 || problem || bytes % static_cast<std::uintmax_t>(page) != 0) {
+    return bad_index(path, "it is damaged: it was cut short");
   }
   return database;
 }
