@@ -17,10 +17,10 @@ namespace {
 constexpr std::size_t kAnchorClipBlock = 256;
 constexpr std::size_t kMaxQueries = 5;
 // Near anchors per query.
-constexpr std::size_t kMaxHits = 16;
+constexpr std::size_t kMaxHits = 12;
 constexpr float kMaxAnchorDistance = 0.5F;
 constexpr double kMaxFirstMismatch = 2.5;
-constexpr double kMaxQuickDifference = 0.6;
+constexpr double kMaxQuickDifference = 0.45;
 // Same shift of two anchors of a pair of clips. [rows]
 constexpr double kSameShift = 1.0;
 // Distance of still clips by rounding. [L]
