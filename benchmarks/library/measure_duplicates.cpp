@@ -2,17 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // measure_duplicates FOLDER [--half tuning|held|all] [--only CAUSE] [--list]
-// measure_duplicates --clips N
+// measure_duplicates FOLDER --clips N
 //
 // The search for duplicates (library/duplicates/find_duplicates.h) on the BVH and AMC
 // files of FOLDER/bandai and FOLDER/cmu: false duplicates among the clips as they are,
-// and copies by cause. With --clips, time and recall on N made clips instead.
+// and copies by cause. With --clips, time and recall on N
+// clips made of them instead.
 // docs/accuracy/library_duplicates.md has figures. Bandai's clips belong to one half by a
 // hash of their name: limits were chosen on the tuning half. --list prints all errors.
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -290,17 +293,22 @@ void measure_library(const Options& options) {
   }
 }
 
-// Smooth random motion of one body: sums of sines, in 57 columns.
-Rows made_rows(testing::Dice& dice, int count) {
-  Rows out(static_cast<std::size_t>(count) * library::kFeatureStride, 0.0F);
-  for (std::size_t c = 0; c < library::kFeatureCount; ++c) {
-    const double phase = dice.between(0.0, 6.3);
-    const double rate = dice.between(0.05, 0.6);
-    const double size = dice.between(0.0, 0.3);
-    const double middle = dice.between(-0.2, 0.2);
-    for (int r = 0; r < count; ++r) {
-      out[static_cast<std::size_t>(r) * library::kFeatureStride + c] =
-          static_cast<float>(middle + size * std::sin(phase + rate * r));
+// Another motion of the same kind: slower or faster, each column enlarged or reduced.
+Rows varied(const Rows& rows, testing::Dice& dice) {
+  constexpr auto kStride = static_cast<std::size_t>(library::kFeatureStride);
+  const double speed = dice.between(0.7, 1.4);
+  std::array<float, kStride> factors{};
+  for (float& factor : factors) factor = static_cast<float>(dice.between(0.7, 1.3));
+  const std::size_t count = rows.size() / kStride;
+  Rows out;
+  for (double at = 0.0; at <= static_cast<double>(count - 1); at += speed) {
+    const auto before = static_cast<std::size_t>(at);
+    const std::size_t after = std::min(before + 1, count - 1);
+    const auto part = static_cast<float>(at - static_cast<double>(before));
+    for (std::size_t c = 0; c < kStride; ++c) {
+      const float value =
+          (1.0F - part) * rows[before * kStride + c] + part * rows[after * kStride + c];
+      out.push_back(factors[c] * value);
     }
   }
   return out;
@@ -308,12 +316,16 @@ Rows made_rows(testing::Dice& dice, int count) {
 
 // Every tenth clip is a disturbed copy of an earlier one: the same, a part, or mirrored.
 void measure_scale(const Options& options) {
+  std::vector<Rows> sources;
+  for (const auto& one : read_motions(options.folder / "bandai", options)) {
+    sources.push_back(features_of(one.motion));
+  }
   testing::Dice dice(20);
   Clips clips;
   std::vector<int> original_of;
   for (int k = 0; k < options.made_clips; ++k) {
     if (k % 10 != 9) {
-      clips.add("", made_rows(dice, 20 + static_cast<int>(dice.between(0.0, 60.0))));
+      clips.add("", varied(sources[static_cast<std::size_t>(k) % sources.size()], dice));
       original_of.push_back(-1);
       continue;
     }
@@ -327,7 +339,7 @@ void measure_scale(const Options& options) {
     }
     for (std::size_t v = 0; v < copy.size(); ++v) {
       if (v % library::kFeatureStride < library::kFeatureCount) {
-        copy[v] += static_cast<float>(dice.noise(0.002));
+        copy[v] += static_cast<float>(dice.noise(0.0003));
       }
     }
     if (k % 30 == 29) copy = library::mirrored_features(copy);
@@ -335,9 +347,11 @@ void measure_scale(const Options& options) {
     original_of.push_back(original);
   }
   const auto start = std::chrono::steady_clock::now();
+  const std::clock_t cpu = std::clock();
   const auto found = library::find_duplicates(clips.rows(), {}, 2);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double cpu_s = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
   std::vector<int> told(original_of.size(), -1);
   for (const auto& one : found) told[static_cast<std::size_t>(one.clip)] = one.original;
   int copies = 0;
@@ -346,13 +360,23 @@ void measure_scale(const Options& options) {
   for (std::size_t k = 0; k < told.size(); ++k) {
     copies += original_of[k] >= 0 ? 1 : 0;
     right += original_of[k] >= 0 && told[k] == original_of[k] ? 1 : 0;
+    if (options.lists_errors && original_of[k] != told[k]) {
+      std::printf("  %zu (%zu rows, kind %zu): %d instead of %d\n",
+                  k,
+                  clips.rows().row_count(static_cast<int>(k)),
+                  k % 30,
+                  told[k],
+                  original_of[k]);
+    }
     false_ones += told[k] >= 0 && told[k] != original_of[k] ? 1 : 0;
   }
   std::printf(
-      "%d made clips, %zu rows: %.1f s on two threads; %d of %d copies, %d false\n",
+      "%d made clips, %zu rows: %.1f s on two threads, %.1f s of processor "
+      "time; %d of %d copies, %d others\n",
       options.made_clips,
       clips.values.size() / library::kFeatureStride,
       seconds,
+      cpu_s,
       right,
       copies,
       false_ones);
@@ -374,7 +398,7 @@ int run(int argc, char** argv) {
       options.folder = word;
     }
   }
-  if (options.made_clips > 0) {
+  if (!options.folder.empty() && options.made_clips > 0) {
     measure_scale(options);
   } else if (!options.folder.empty()) {
     measure_library(options);

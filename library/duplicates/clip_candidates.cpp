@@ -17,9 +17,10 @@ namespace {
 constexpr std::size_t kAnchorClipBlock = 256;
 constexpr std::size_t kMaxQueries = 5;
 // Near anchors per query.
-constexpr std::size_t kMaxHits = 16;
+constexpr std::size_t kMaxHits = 12;
 constexpr float kMaxAnchorDistance = 0.5F;
 constexpr double kMaxFirstMismatch = 2.5;
+constexpr double kMaxQuickDifference = 0.45;
 // Same shift of two anchors of a pair of clips. [rows]
 constexpr double kSameShift = 1.0;
 // Distance of still clips by rounding. [L]
@@ -30,13 +31,6 @@ constexpr double kLongRows = 100.0;
 constexpr double kShortFactor = 0.67;
 // Candidates on other bodies within this factor of the limit are kept, too.
 constexpr double kNearFactor = 1.5;
-
-/// A pair of clips at a time shift.
-struct PairShift {
-  int original = 0;
-  double shift = 0.0;
-  float distance = 0.0F;
-};
 
 }  // namespace
 
@@ -108,43 +102,64 @@ void CandidateSearch::search(int clip,
            std::tie(b.original, b.distance, b.shift);
   });
   prepare_clip(rows, clip_);
+  lengths_ = body_lengths(rows);
   for (std::size_t first = 0; first < pairs.size();) {
-    std::optional<ClipCandidate> best;
-    std::vector<double> tried;
     const int original = pairs[first].original;
-    bool is_prepared = false;
-    for (; first < pairs.size() && pairs[first].original == original; ++first) {
-      const double shift = pairs[first].shift;
-      if (std::any_of(tried.begin(), tried.end(), [&](double t) {
-            return std::abs(t - shift) < kSameShift;
-          })) {
-        continue;
-      }
-      tried.push_back(shift);
-      if (!is_prepared) prepare_clip(features_.rows(original), other_);
-      is_prepared = true;
-      const auto one = compare(original, shift);
-      if (!one) continue;
-      if (!best ||
-          std::make_tuple(!one->agrees, one->is_other_body, one->course) <
-              std::make_tuple(!best->agrees, best->is_other_body, best->course)) {
-        best = one;
-      }
-    }
+    const auto last =
+        std::find_if(pairs.begin() + static_cast<std::ptrdiff_t>(first),
+                     pairs.end(),
+                     [&](const PairShift& pair) { return pair.original != original; });
+    const auto size = static_cast<std::size_t>(last - pairs.begin()) - first;
+    auto best = compare_at(clip, rows, original, std::span(pairs).subspan(first, size));
+    first += size;
     if (!best) continue;
     best->is_mirrored = is_mirrored;
     out.push_back(*best);
   }
 }
 
-std::optional<ClipCandidate> CandidateSearch::compare(int original, double shift) {
+std::optional<ClipCandidate> CandidateSearch::compare_at(
+    int clip,
+    std::span<const float> rows,
+    int original,
+    std::span<const PairShift> shifts) {
+  const std::span<const float> others = features_.rows(original);
+  is_same_body_ = have_same_lengths(lengths_, body_lengths(others));
+  const auto count = static_cast<int>(rows.size() / kFeatureStride);
+  const auto other_count = static_cast<int>(others.size() / kFeatureStride);
+  const double needed = rule_.min_cover_share * std::min(count, other_count) - 1.0;
+  // The other clip finds this one.
+  if (is_same_body_ && original > clip && other_count <= count) return std::nullopt;
+  std::optional<ClipCandidate> best;
+  std::vector<double> tried;
+  for (const PairShift& pair : shifts) {
+    const double shift = pair.shift;
+    const double common =
+        std::min<double>(count, other_count - shift) - std::max(0.0, -shift);
+    if (common < std::max(1.0, needed)) continue;
+    if (std::any_of(tried.begin(), tried.end(), [&](double t) {
+          return std::abs(t - shift) < kSameShift;
+        })) {
+      continue;
+    }
+    if (quick_difference(rows, others, shift) > kMaxQuickDifference) continue;
+    if (tried.empty()) prepare_clip(others, other_);
+    tried.push_back(shift);
+    const auto one = compare(original, shift, needed);
+    if (!one) continue;
+    if (!best || std::make_tuple(!one->agrees, one->is_other_body, one->course) <
+                     std::make_tuple(!best->agrees, best->is_other_body, best->course)) {
+      best = one;
+    }
+  }
+  return best;
+}
+
+std::optional<ClipCandidate> CandidateSearch::compare(int original,
+                                                      double shift,
+                                                      double needed) {
   const int shorter = std::min(clip_.count(), other_.count());
   const int longer = std::max(clip_.count(), other_.count());
-  const double common =
-      std::min<double>(clip_.count(), other_.count() - shift) - std::max(0.0, -shift);
-  // Half a row at either end belongs to neither.
-  const double needed = rule_.min_cover_share * shorter - 1.0;
-  if (common < needed) return std::nullopt;
   const auto agreement =
       compare_clips(clip_, other_, shift, kMaxFirstMismatch, compare_scratch_);
   if (!agreement || agreement->rows < needed) return std::nullopt;
@@ -167,7 +182,7 @@ std::optional<ClipCandidate> CandidateSearch::compare(int original, double shift
       std::clamp((agreement->rows - kShortRows) / (kLongRows - kShortRows), 0.0, 1.0);
   const double limit =
       rule_.max_body_distance * (kShortFactor + (1.0 - kShortFactor) * length_share);
-  if (have_same_lengths(clip_, other_) || agreement->rows < kMinBodyRows ||
+  if (is_same_body_ || agreement->rows < kMinBodyRows ||
       agreement->course > kNearFactor * limit) {
     return std::nullopt;
   }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "library/duplicates/compare_clips.h"
@@ -28,6 +29,13 @@ struct ClipCandidate {
   double course = 0.0;         ///< ClipAgreement::course.
 };
 
+/// A pair of clips at a time shift.
+struct PairShift {
+  int original = 0;
+  double shift = 0.0;  ///< Row of the original at the clip's first row.
+  float distance = 0.0F;
+};
+
 /// Returns the anchors of all clips. The same for any number of threads. Linear in rows.
 [[nodiscard]] AnchorTable anchors_of(const ClipRows& features, std::size_t threads);
 
@@ -45,12 +53,21 @@ class CandidateSearch {
 
  private:
   void search(int clip, bool is_mirrored, std::vector<ClipCandidate>& out);
-  [[nodiscard]] std::optional<ClipCandidate> compare(int original, double shift);
+  [[nodiscard]] std::optional<ClipCandidate> compare_at(
+      int clip,
+      std::span<const float> rows,
+      int original,
+      std::span<const PairShift> shifts);
+  [[nodiscard]] std::optional<ClipCandidate> compare(int original,
+                                                     double shift,
+                                                     double needed);
 
   const ClipRows& features_;
   const AnchorIndex& index_;
   const DuplicateRule& rule_;
   ComparedClip clip_, other_;
+  BodyLengths lengths_{};
+  bool is_same_body_ = false;
   AnchorScratch anchor_scratch_;
   CompareScratch compare_scratch_;
   std::vector<AnchorHit> hits_;

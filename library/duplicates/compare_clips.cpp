@@ -178,26 +178,79 @@ void prepare_clip(std::span<const float> rows, ComparedClip& out) {
     for (std::size_t c = 1; c < kVelocityColumn; c += 3) row[c] -= height;
     for (std::size_t c = kVelocityColumn + 1; c < kVelocityEnd; c += 3) row[c] -= speed;
   }
-  out.lengths = {};
-  if (count == 0) return;
-  using P = BodyPoint;
-  const std::span<const float> first = rows.first(kStride);
-  out.lengths = {length_between(first, P::kLeftKnee, P::kLeftAnkle),
-                 length_between(first, P::kRightKnee, P::kRightAnkle),
-                 length_between(first, P::kLeftElbow, P::kLeftHand),
-                 length_between(first, P::kRightElbow, P::kRightHand),
-                 length_between(first, P::kLeftAnkle, P::kLeftToes),
-                 length_between(first, P::kRightAnkle, P::kRightToes)};
 }
 
-bool have_same_lengths(const ComparedClip& a, const ComparedClip& b) {
+BodyLengths body_lengths(std::span<const float> rows) {
+  if (rows.empty()) return {};
+  using P = BodyPoint;
+  const std::span<const float> first = rows.first(kStride);
+  return {length_between(first, P::kLeftKnee, P::kLeftAnkle),
+          length_between(first, P::kRightKnee, P::kRightAnkle),
+          length_between(first, P::kLeftElbow, P::kLeftHand),
+          length_between(first, P::kRightElbow, P::kRightHand),
+          length_between(first, P::kLeftAnkle, P::kLeftToes),
+          length_between(first, P::kRightAnkle, P::kRightToes)};
+}
+
+bool have_same_lengths(const BodyLengths& a, const BodyLengths& b) {
   bool same = true;
   bool mirrored = true;
-  for (std::size_t k = 0; k < a.lengths.size(); ++k) {
-    same = same && std::abs(a.lengths[k] - b.lengths[k]) <= kLengthError;
-    mirrored = mirrored && std::abs(a.lengths[k] - b.lengths[k ^ 1U]) <= kLengthError;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    same = same && std::abs(a[k] - b[k]) <= kLengthError;
+    mirrored = mirrored && std::abs(a[k] - b[k ^ 1U]) <= kLengthError;
   }
   return same || mirrored;
+}
+
+double quick_difference(std::span<const float> a,
+                        std::span<const float> b,
+                        double shift) {
+  constexpr std::array kPoints = {BodyPoint::kHead,
+                                  BodyPoint::kLeftHand,
+                                  BodyPoint::kRightHand,
+                                  BodyPoint::kLeftAnkle,
+                                  BodyPoint::kRightAnkle};
+  constexpr std::size_t kInstants = 4;
+  const auto count = [](std::span<const float> rows) {
+    return static_cast<int>(rows.size() / kStride);
+  };
+  const CommonRows rows = common_rows(count(a), count(b), shift);
+  std::array<std::array<float, 3 * kPoints.size()>, kInstants> x{};
+  std::array<std::array<float, 3 * kPoints.size()>, kInstants> y{};
+  for (std::size_t k = 0; k < kInstants; ++k) {
+    const int row = rows.first + (rows.count() - 1) * static_cast<int>(k) /
+                                     static_cast<int>(kInstants - 1);
+    const double at = std::clamp(row + shift, 0.0, count(b) - 1.0);
+    const auto whole = static_cast<std::size_t>(at);
+    const std::size_t next = std::min(whole + 1, b.size() / kStride - 1);
+    const auto u = static_cast<float>(at - static_cast<double>(whole));
+    const float* p = a.data() + static_cast<std::size_t>(row) * kStride;
+    const float* q = b.data() + whole * kStride;
+    const float* r = b.data() + next * kStride;
+    for (std::size_t c = 0; c < x[k].size(); ++c) {
+      const std::size_t from = 3 * index(kPoints[c / 3]) + c % 3;
+      const float hips = c % 3 == 1 ? 1.0F : 0.0F;
+      x[k][c] = p[from] - hips * p[1];
+      y[k][c] = (1.0F - u) * (q[from] - hips * q[1]) + u * (r[from] - hips * r[1]);
+    }
+  }
+  float difference = 0.0F;
+  float change = 0.0F;
+  for (std::size_t c = 0; c < x[0].size(); ++c) {
+    float mean_x = 0.0F;
+    float mean_y = 0.0F;
+    for (std::size_t k = 0; k < kInstants; ++k) {
+      mean_x += x[k][c] / kInstants;
+      mean_y += y[k][c] / kInstants;
+    }
+    for (std::size_t k = 0; k < kInstants; ++k) {
+      const float dx = x[k][c] - mean_x;
+      const float dy = y[k][c] - mean_y;
+      difference += (dx - dy) * (dx - dy);
+      change += 0.5F * (dx * dx + dy * dy);
+    }
+  }
+  return std::sqrt(difference / std::max(change, 1e-6F));
 }
 
 std::optional<ClipAgreement> compare_clips(const ComparedClip& a,

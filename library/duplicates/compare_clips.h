@@ -9,15 +9,23 @@
 
 namespace marey::library {
 
-/// Features of a clip without the height of the hips, and its body.
+/// Lengths of shanks, forearms and feet, left and right, in leg lengths. They are
+/// constant for a skeleton, whatever it does.
+using BodyLengths = std::array<float, 6>;
+
+/// Returns the lengths by the first row of a clip's features; zeros without rows.
+[[nodiscard]] BodyLengths body_lengths(std::span<const float> rows);
+
+/// Returns true if the lengths of both bodies, or of one and the mirror image of the
+/// other, agree within 0.002 leg lengths.
+[[nodiscard]] bool have_same_lengths(const BodyLengths& a, const BodyLengths& b);
+
+/// Features of a clip without the height of the hips.
 struct ComparedClip {
   /// kFeatureStride floats per instant: body_features() with all heights and vertical
   /// velocities relative to the hips. A floor at another height and a lost vertical
   /// motion of the root have no influence.
   std::vector<float> rows;
-  /// Lengths of shanks, forearms and feet, left and right, in leg lengths. They are
-  /// constant for a skeleton, whatever it does.
-  std::array<float, 6> lengths{};
 
   [[nodiscard]] int count() const;
 };
@@ -25,10 +33,6 @@ struct ComparedClip {
 /// Prepares a clip; `out` is used again. Linear in rows.
 /// Precondition: body_features() rows of kFeatureStride floats.
 void prepare_clip(std::span<const float> rows, ComparedClip& out);
-
-/// Returns true if the lengths of both bodies, or of one and the mirror image of the
-/// other, agree within 0.002 leg lengths.
-[[nodiscard]] bool have_same_lengths(const ComparedClip& a, const ComparedClip& b);
 
 /// Agreement of two clips at their best time shift.
 struct ClipAgreement {
@@ -49,6 +53,14 @@ struct ClipAgreement {
 struct CompareScratch {
   std::vector<float> second;
 };
+
+/// Returns a fast estimate of the difference of two clips at a time shift: the distance
+/// of the positions of head, hands and ankles relative to the hips at four instants, less
+/// its mean, over the change between these instants. 0 for the same motion, about 1.4 for
+/// unrelated ones. Constant time. Precondition: there are common rows.
+[[nodiscard]] double quick_difference(std::span<const float> a,
+                                      std::span<const float> b,
+                                      double shift);
 
 /// Compares two clips near a time shift: the shift is refined within 0.6 rows, to 0.03
 /// rows, with cubic interpolation of the second clip. The first and last common row are

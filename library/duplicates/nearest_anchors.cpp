@@ -23,6 +23,8 @@ constexpr double kClusterFactor = 3.0;
 constexpr std::size_t kAnchorBlock = 1024;
 // Rows whose distances are computed at once.
 constexpr std::size_t kRowBlock = 512;
+// Above the rounding of a square root and its square.
+constexpr float kSquareMargin = 1.00001F;
 
 std::size_t cluster_count(std::size_t anchors) {
   if (anchors < kMinClustered) return 1;
@@ -120,6 +122,7 @@ void AnchorIndex::find(std::span<const float> query,
   std::partial_sort(scratch.clusters.begin(),
                     scratch.clusters.begin() + static_cast<std::ptrdiff_t>(searched),
                     scratch.clusters.end());
+  float max_square = max_distance * max_distance;
   std::array<float, kRowBlock> squares{};
   for (std::size_t n = 0; n < searched; ++n) {
     const std::size_t c = scratch.clusters[n].second;
@@ -131,9 +134,12 @@ void AnchorIndex::find(std::span<const float> query,
                    query.data(),
                    squares.data());
       for (std::size_t k = 0; k < size; ++k) {
-        const float distance = std::sqrt(squares[k]);
-        if (distance > max_distance || table_.clips[first + k] == skipped_clip) continue;
-        add_hit({first + k, distance}, count, out);
+        if (squares[k] > max_square || table_.clips[first + k] == skipped_clip) continue;
+        add_hit({first + k, std::sqrt(squares[k])}, count, out);
+        if (out.size() == count) {
+          max_square = std::min(
+              max_square, out.front().distance * out.front().distance * kSquareMargin);
+        }
       }
     }
   }

@@ -37,7 +37,7 @@ struct AnchorScratch {
 /// benchmarks/library/measure_duplicates.cpp measures how many copies are found.
 class AnchorIndex {
  public:
-  static constexpr std::size_t kSearchedClusters = 16;
+  static constexpr std::size_t kSearchedClusters = 10;
 
   /// The same clusters for any number of threads. Cost: anchors times sqrt(anchors).
   /// Memory: twice the table.
