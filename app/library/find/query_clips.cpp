@@ -286,6 +286,7 @@ class QueryRun {
           in_quotes(at.value) + " is no relation and no label of this library",
           nearest_suggestion(at.value, known));
     }
+    remark(WordKind::kLabel, at.value, at.value);
     return selector_.with_label(at.value, at.min_s);
   }
 
