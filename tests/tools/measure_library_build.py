@@ -108,33 +108,41 @@ def measure_bytes(marey, top, sources):
     run(marey, "library", "merge", shards)
     print("one job = two jobs elsewhere:", tree_digest(two) == expected)
     print("one job = four shards:", tree_digest(shards) == expected)
-    return expected
 
 
-def measure_kills(marey, top, sources, expected, kills):
+def measure_kills(marey, top, sources, kills):
+    """Kills builds of every eighth file at random instants, up to after their end."""
+    some = top / "some"
+    some.mkdir()
+    for file in sorted(sources.rglob("*.bvh"))[::8]:
+        (some / file.name).symlink_to(file)
+    whole = make_library(top / "whole", some)
+    seconds = run(marey, "library", "build", whole)[0]
+    expected = tree_digest(whole)
     rng = random.Random(20)
-    seconds = run(marey, "library", "build", make_library(top / "whole", sources))[0]
-    library = make_library(top / "killed", sources)
-    unreadable = finished = 0
+    library = make_library(top / "killed", some)
+    unreadable = finished = different = left = 0
     for _ in range(kills):
         child = subprocess.Popen([marey, "library", "build", library],
                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
-            # The work that remains becomes shorter: so do the times.
-            child.wait(timeout=rng.uniform(0.0, 0.06 * seconds))
-            finished += 1
-            shutil.rmtree(library)
-            library = make_library(top / "killed", sources)
+            child.wait(timeout=rng.uniform(0.0, 0.5 * seconds))
         except subprocess.TimeoutExpired:
             child.send_signal(signal.SIGKILL)
             child.wait()
-        unreadable += not is_readable(marey, library)
+            unreadable += not is_readable(marey, library)
+            continue
+        # The library is complete. The next kills belong to a new one.
+        finished += 1
+        different += tree_digest(library) != expected
+        left += len(list(library.rglob("*.partial")) + list(library.glob("LOCK*")))
+        shutil.rmtree(library)
+        library = make_library(top / "killed", some)
     run(marey, "library", "build", library)
-    left = [str(p) for p in library.rglob("*.partial")] + [
-        str(p) for p in library.glob("LOCK*")]
-    print(f"{kills} kills ({finished} came after the end): unreadable {unreadable}; same "
-          f"bytes as never killed: {tree_digest(library) == expected}; files left: "
-          f"{len(left)}")
+    different += tree_digest(library) != expected
+    print(f"{kills} kills of a build of {seconds:.1f} s: {finished} reached the end after "
+          f"kills; unreadable {unreadable}; other bytes than never killed {different}; "
+          f"files left {left}")
 
 
 def main():
@@ -143,9 +151,9 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         top = pathlib.Path(folder)
         measure_times(marey, top, sources)
-        expected = measure_bytes(marey, top, sources)
+        measure_bytes(marey, top, sources)
         if kills:
-            measure_kills(marey, top, sources, expected, kills)
+            measure_kills(marey, top, sources, kills)
 
 
 if __name__ == "__main__":
