@@ -123,6 +123,10 @@ Exit work_on(const BuildInputs& inputs,
     console.say("stopped; the same command goes on from here");
     return Exit::kInterrupted;
   }
+  for (const SourceOutcome& outcome : *outcomes) {
+    // Without outcomes, the shard counts as not finished, and can be repeated.
+    if (outcome.is_disk_failure) return console.fail(*outcome.failure);
+  }
   const Status ok = write_shard_outcomes(inputs.library, args.shard, *outcomes);
   if (!ok) return console.fail(ok.error());
   console.say(format_text("shard %d: %zu sources", args.shard, sources->size()));

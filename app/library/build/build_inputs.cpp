@@ -3,11 +3,17 @@
 #include "app/library/build/build_inputs.h"
 
 #include <algorithm>
+#include <span>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "library/quality/quality_limits.h"
+
 #include "core/base/extension.h"
 #include "core/base/format_text.h"
+#include "core/base/in_quotes.h"
+#include "core/nearest_word.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/base/sha256.h"
 #include "recordings/library/clip_record_file.h"
@@ -52,6 +58,21 @@ Status read_tables(BuildInputs& out, std::string& digests) {
   return Done{};
 }
 
+/// Checks that limits are of figures that exist.
+Status check_limits(const std::vector<QualityLimit>& limits, const std::string& file) {
+  std::vector<std::string_view> known;
+  for (const library::FigureRule& rule : library::figure_rules()) {
+    if (rule.has_verdict()) known.push_back(rule.figure);
+  }
+  for (const QualityLimit& limit : limits) {
+    if (std::ranges::find(known, limit.figure) != known.end()) continue;
+    return bad_input(file + ": [quality]",
+                     in_quotes(limit.figure) + " is no figure with limits",
+                     suggestion(limit.figure, std::span<const std::string_view>(known)));
+  }
+  return Done{};
+}
+
 /// A number that every value of double has another text for.
 std::string exact_text(double value) {
   return format_text("%.17g", value);
@@ -74,6 +95,9 @@ Result<BuildInputs> read_build_inputs(const fs::path& library) {
   if (!text) return text.error();
   auto settings = recordings::parse_library(*text, file.string());
   if (!settings) return settings.error();
+  if (const Status ok = check_limits(settings->limits, file.string()); !ok) {
+    return ok.error();
+  }
   out.settings = std::move(*settings);
   std::string digests = recordings::sha256(*text);
   if (const Status ok = read_tables(out, digests); !ok) return ok.error();

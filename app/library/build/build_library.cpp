@@ -153,6 +153,10 @@ Result<BuiltLibrary> finish_library(const BuildInputs& inputs,
                                     const std::vector<SourceFile>& sources,
                                     std::vector<SourceOutcome> outcomes,
                                     Console& console) {
+  for (const SourceOutcome& outcome : outcomes) {
+    // A version without these sources would hide that they are missing.
+    if (outcome.is_disk_failure) return *outcome.failure;
+  }
   std::vector<std::size_t> damaged;
   auto merged = merge_library(inputs, sources, outcomes, damaged);
   if (!merged && !damaged.empty()) {
@@ -167,7 +171,7 @@ Result<BuiltLibrary> finish_library(const BuildInputs& inputs,
   out.merged = std::move(*merged);
   out.sources = sources.size();
   for (const SourceOutcome& outcome : outcomes) {
-    if (outcome.was_made) ++out.made;
+    if (outcome.was_read) ++out.read;
     if (outcome.failure) out.failures.push_back(*outcome.failure);
   }
   out.remarks = group_remarks(outcomes);

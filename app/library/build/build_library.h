@@ -18,8 +18,8 @@ namespace marey::app {
 struct BuiltLibrary {
   MergedLibrary merged;
   std::size_t sources = 0;
-  std::size_t made = 0;              ///< Sources whose objects were made by this build.
-  std::vector<Error> failures;       ///< Sources that gave nothing, by name.
+  std::size_t read = 0;         ///< Sources that this build read.
+  std::vector<Error> failures;  ///< Sources that gave nothing, by name.
   /// Of readers and of the merge. A remark on several sources occurs once, with their
   /// number and the first one.
   std::vector<std::string> remarks;
@@ -41,7 +41,8 @@ struct BuiltLibrary {
                                                  int jobs,
                                                  Console& console);
 
-/// Merges outcomes, and makes damaged objects again. Precondition: as build_library().
+/// Merges outcomes, and makes damaged objects again. Errors: also that of an outcome
+/// whose objects could not be written. Precondition: as build_library().
 [[nodiscard]] Result<BuiltLibrary> finish_library(const BuildInputs& inputs,
                                                   const std::vector<SourceFile>& sources,
                                                   std::vector<SourceOutcome> outcomes,

@@ -34,13 +34,25 @@ bool has_object(const BuildInputs& inputs,
   return fs::is_regular_file(inputs.library / object_path(key, extension), failed);
 }
 
-Status write_object(const BuildInputs& inputs,
-                    const std::string& key,
-                    std::string_view extension,
-                    const std::string& bytes) {
-  return recordings::write_file(
-      inputs.library / object_path(key, extension), bytes, OnDisk::kNow);
-}
+/// Writes objects. A failure belongs to the library's disk, not to a source.
+class ObjectWriter {
+ public:
+  explicit ObjectWriter(const std::filesystem::path& library) : library_(library) {}
+
+  [[nodiscard]] Status write(const std::string& key,
+                             std::string_view extension,
+                             const std::string& bytes) {
+    const Status ok = recordings::write_file(
+        library_ / object_path(key, extension), bytes, OnDisk::kNow);
+    if (!ok) has_failed_ = true;
+    return ok;
+  }
+  [[nodiscard]] bool has_failed() const { return has_failed_; }
+
+ private:
+  const std::filesystem::path& library_;
+  bool has_failed_ = false;
+};
 
 /// Removes the source's path from the place of an error, as objects have no paths.
 Error without_path(Error error, const SourceFile& file) {
@@ -72,7 +84,7 @@ std::optional<SourceStage> find_stage(const BuildInputs& inputs, const std::stri
 }
 
 /// Makes the motion of one body an object.
-Result<ClipRecord> write_body(const BuildInputs& inputs,
+Result<ClipRecord> write_body(ObjectWriter& objects,
                               const std::string& motion_key,
                               const SourceFile& file,
                               SourceMotion source) {
@@ -95,13 +107,14 @@ Result<ClipRecord> write_body(const BuildInputs& inputs,
   body.events = std::move(source.events);
   const auto bytes = recordings::motion_object_bytes(*clip);
   if (!bytes) return without_path(bytes.error(), file);
-  const Status ok = write_object(inputs, body.object_key, ".npz", *bytes);
+  const Status ok = objects.write(body.object_key, ".npz", *bytes);
   if (!ok) return ok.error();
   return body;
 }
 
 /// Reads a source and makes the objects of its bodies.
 Result<SourceStage> make_stage(const BuildInputs& inputs,
+                               ObjectWriter& objects,
                                const SourceFile& file,
                                const std::string& motion_key) {
   ReadSourceOptions options;
@@ -114,7 +127,7 @@ Result<SourceStage> make_stage(const BuildInputs& inputs,
   for (SourceMotion& motion : *motions) {
     stage.remarks.insert(
         stage.remarks.end(), motion.remarks.begin(), motion.remarks.end());
-    auto body = write_body(inputs, motion_key, file, std::move(motion));
+    auto body = write_body(objects, motion_key, file, std::move(motion));
     if (!body) return body.error();
     stage.bodies.push_back(std::move(*body));
   }
@@ -123,37 +136,38 @@ Result<SourceStage> make_stage(const BuildInputs& inputs,
 
 /// Makes the stage's object, also that of a failure which the source's content causes.
 Result<SourceStage> import_stage(const BuildInputs& inputs,
+                                 ObjectWriter& objects,
                                  const SourceFile& file,
                                  const KnownSource& known,
                                  const std::string& key) {
   if (auto found = find_stage(inputs, key)) return std::move(*found);
-  auto stage = make_stage(inputs, file, key);
+  auto stage = make_stage(inputs, objects, file, key);
   // Neither the result nor the failure is that of the identified content.
   if (!known.is_current()) return without_path(changed_while_read(file), file);
   if (!stage) {
-    if (stage.error().code != Errc::kBadInput) return stage.error();
+    if (objects.has_failed() || stage.error().code != Errc::kBadInput) {
+      return stage.error();
+    }
     SourceStage failed;
     failed.failure = stage.error();
     stage = std::move(failed);
   }
-  const Status ok =
-      write_object(inputs, key, ".json", recordings::source_stage_text(*stage));
+  const Status ok = objects.write(key, ".json", recordings::source_stage_text(*stage));
   if (!ok) return ok.error();
   return stage;
 }
 
 /// Makes the records and features of a source's clips.
 Status import_clips(const BuildInputs& inputs,
+                    ObjectWriter& objects,
                     const SourceStage& stage,
                     const std::string& source_id,
                     const std::string& key) {
   const auto clips = make_clips(inputs, stage, source_id);
   if (!clips) return clips.error();
-  if (const Status ok = write_object(inputs, key, ".f32", clips->features); !ok)
-    return ok;
+  if (const Status ok = objects.write(key, ".f32", clips->features); !ok) return ok;
   // The records last: if they exist, so do the features.
-  return write_object(
-      inputs, key, ".json", recordings::clip_records_text(clips->records));
+  return objects.write(key, ".json", recordings::clip_records_text(clips->records));
 }
 
 }  // namespace
@@ -190,16 +204,19 @@ ImportedSource import_source(const BuildInputs& inputs, const SourceFile& file) 
     return out;
   }
   const SourceKeys keys = keys_of(inputs, file, known->id);
-  out.outcome.was_made = true;
-  const auto stage = import_stage(inputs, file, *known, keys.motion);
+  ObjectWriter objects(inputs.library);
+  out.outcome.was_read = !find_stage(inputs, keys.motion);
+  const auto stage = import_stage(inputs, objects, file, *known, keys.motion);
   if (!stage || stage->failure) {
     out.outcome.failure = with_name(stage ? *stage->failure : stage.error(), file);
+    out.outcome.is_disk_failure = objects.has_failed();
     return out;
   }
   out.outcome.remarks = stage->remarks;
-  const Status ok = import_clips(inputs, *stage, known->id, keys.clips);
+  const Status ok = import_clips(inputs, objects, *stage, known->id, keys.clips);
   if (!ok) {
     out.outcome.failure = with_name(ok.error(), file);
+    out.outcome.is_disk_failure = objects.has_failed();
     return out;
   }
   out.outcome.clips_key = keys.clips;

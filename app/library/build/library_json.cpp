@@ -17,7 +17,7 @@ nlohmann::ordered_json library_json(const BuiltLibrary& built) {
           {"version_sha256", head.version_name},
           {"is_new_version", built.merged.is_new_version},
           {"sources", built.sources},
-          {"sources_read", built.made},
+          {"sources_read", built.read},
           {"clips", head.clips},
           {"seconds", head.seconds},
           {"warned", head.warned},
@@ -42,7 +42,7 @@ std::string library_sentence(const BuiltLibrary& built) {
       static_cast<long long>(head.warned),
       static_cast<long long>(head.failed),
       static_cast<long long>(head.duplicates),
-      built.made);
+      built.read);
 }
 
 }  // namespace marey::app

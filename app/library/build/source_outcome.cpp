@@ -16,6 +16,11 @@ bool read_word(const OutcomeJson& object, const char* key, std::string& out) {
   return true;
 }
 
+bool read_flag(const OutcomeJson& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_boolean() && found->get<bool>();
+}
+
 OutcomeJson error_json(const Error& error) {
   return {{"code", static_cast<int>(error.code)},
           {"where", error.where},
@@ -45,7 +50,8 @@ std::string outcome_text(const SourceOutcome& outcome) {
       {"clips_key", outcome.clips_key},
       {"failure", outcome.failure ? error_json(*outcome.failure) : OutcomeJson()},
       {"remarks", outcome.remarks},
-      {"was_made", outcome.was_made}};
+      {"was_read", outcome.was_read},
+      {"is_disk_failure", outcome.is_disk_failure}};
   return json.dump(-1, ' ', false, OutcomeJson::error_handler_t::replace);
 }
 
@@ -69,9 +75,8 @@ std::optional<SourceOutcome> parse_outcome(std::string_view text) {
       if (remark.is_string()) out.remarks.push_back(remark.get<std::string>());
     }
   }
-  const auto was_made = root.find("was_made");
-  out.was_made =
-      was_made != root.end() && was_made->is_boolean() && was_made->get<bool>();
+  out.was_read = read_flag(root, "was_read");
+  out.is_disk_failure = read_flag(root, "is_disk_failure");
   return out;
 }
 

@@ -19,7 +19,10 @@ struct SourceOutcome {
   std::string clips_key;  ///< Of the records and features of its clips; empty: none.
   std::optional<Error> failure;
   std::vector<std::string> remarks;
-  bool was_made = false;  ///< Objects were made, not found.
+  bool was_read = false;  ///< The source was read: its motion was no object yet.
+  /// The objects could not be written: a failure of the library's disk, not of the
+  /// source.
+  bool is_disk_failure = false;
 };
 
 /// Returns an outcome as one line of JSON, without its end.
