@@ -125,7 +125,9 @@ std::vector<Bomb> of_kind(const std::vector<Bomb>& bombs, const std::string& end
 }
 
 TEST(Bombs, AreDeclinedInGltf) {
-  expect_survived(testing::gltf_bombs(), {reader("character", read_character)});
+  expect_survived(
+      testing::gltf_bombs(),
+      {reader("character", [](const fs::path& file) { return read_character(file); })});
 }
 
 TEST(Bombs, AreDeclinedInBvh) {

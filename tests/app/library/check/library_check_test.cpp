@@ -19,7 +19,7 @@ namespace {
 
 using marey::testing::checked_clips;
 using marey::testing::ScratchFolder;
-using Json = nlohmann::ordered_json;
+using CheckedJson = nlohmann::ordered_json;
 
 /// A clip of ten seconds at 30 Hz.
 ClipRecord judged_clip(const std::string& id, std::vector<ClipFigure> figures) {
@@ -128,21 +128,21 @@ TEST(LibraryCheck, DescribesAnEmptyLibrary) {
   const LibraryCheck check = check_library({}, library::QualityLimits({}), {});
   EXPECT_EQ(check.total.clips, 0);
   EXPECT_NE(text_of_check(check, 5).find("0 clips"), std::string::npos);
-  const Json json = check_json(check);
+  const CheckedJson json = check_json(check);
   EXPECT_EQ(json["clips"].size(), 0u);
   EXPECT_EQ(json["verdicts"]["fail"]["clips"], 0);
 }
 
 TEST(LibraryCheck, HasEverythingInJson) {
-  const Json json = check_json(four_clips());
+  const CheckedJson json = check_json(four_clips());
   EXPECT_EQ(json["format"], 1);
   EXPECT_EQ(json["total"]["clips"], 4);
   EXPECT_EQ(json["figures"][1]["worst"]["clip"], "c");
-  EXPECT_EQ(json["figures"][1]["limits"], Json({7.0, 12.0}));
+  EXPECT_EQ(json["figures"][1]["limits"], CheckedJson({7.0, 12.0}));
   EXPECT_TRUE(json["figures"][2]["limits"].is_null());
   EXPECT_EQ(json["failed"][0]["cause"], "it ends early");
   ASSERT_EQ(json["clips"].size(), 4u);
-  const Json& worst = json["clips"][0];
+  const CheckedJson& worst = json["clips"][0];
   EXPECT_EQ(worst["clip"], "d");
   EXPECT_EQ(worst["quality"], "fail");
   EXPECT_EQ(worst["figures"][1]["name"], "spike");
