@@ -63,10 +63,12 @@ struct Child {
   bool is_busy = false;
 };
 
-/// The loop of a child: a number in, a size and a text out.
-[[noreturn]] void serve_tasks(int tasks,
-                              int results,
-                              const std::function<std::string(std::size_t)>& task) {
+/// The loop of a child: a number in, a size and a text out. An exception, such as
+/// std::bad_alloc, ends the child by a signal: it must not reach the parent's code.
+[[noreturn]] void serve_tasks(
+    int tasks,
+    int results,
+    const std::function<std::string(std::size_t)>& task) noexcept {
   std::uint64_t number = 0;
   while (read_all(tasks, &number, sizeof(number))) {
     const std::string text = task(static_cast<std::size_t>(number));

@@ -161,6 +161,15 @@ Result<std::vector<SourceMotion>> solve_marker_source(
     const fs::path& path,
     recordings::MarkerFile file,
     const MarkerSourceOptions& options) {
+  // Distances between all markers are computed.
+  constexpr std::size_t kMaxMarkers = 2000;
+  if (file.tracks.markers() > kMaxMarkers) {
+    return bad_input(path.string(),
+                     "it has " + std::to_string(file.tracks.markers()) +
+                         " markers, but a library solves at most " +
+                         std::to_string(kMaxMarkers),
+                     "write a file with the markers of the persons alone");
+  }
   const std::vector<PersonMarkers> persons = persons_of(file.tracks);
   std::vector<SourceMotion> all;
   std::vector<std::string> failed;

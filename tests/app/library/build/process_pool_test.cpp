@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <new>
 #include <set>
 #include <string>
 
@@ -75,6 +76,21 @@ TEST(ProcessPool, BeginsNoTaskAfterAStop) {
   EXPECT_GE(done, 5u);
   EXPECT_LE(done, 7u);
   EXPECT_TRUE(run_in_processes(0, 2, nullptr, kGoOn).empty());
+}
+
+TEST(ProcessPool, EndsAChildThatThrows) {
+  const auto outcomes = run_in_processes(
+      3,
+      1,
+      [](std::size_t i) -> std::string {
+        if (i == 1) throw std::bad_alloc();
+        return "done";
+      },
+      kGoOn);
+  EXPECT_TRUE(outcomes[0].is_done);
+  EXPECT_FALSE(outcomes[1].is_done);
+  EXPECT_EQ(outcomes[1].signal, SIGABRT);
+  EXPECT_TRUE(outcomes[2].is_done);
 }
 
 }  // namespace

@@ -49,12 +49,12 @@ TEST(ListSources, FindsFilesBelowFoldersInTheOrderOfTheirNames) {
       list_sources(folder.path(), settings_of({"b", "a", "one.npz", "a/run.BVH"}));
   ASSERT_TRUE(files) << files.error().message();
   EXPECT_EQ(
-      names_of(*files),
+      names_of(files->files),
       (std::vector<std::string>{"a/deep/er.glb", "a/run.BVH", "b/walk.bvh", "one.npz"}));
-  EXPECT_EQ((*files)[1].kind, "bvh");
-  EXPECT_EQ((*files)[1].source, 1u) << "it is in two sources";
-  EXPECT_EQ((*files)[2].source, 0u);
-  EXPECT_EQ((*files)[2].bytes, 1u);
+  EXPECT_EQ(files->files[1].kind, "bvh");
+  EXPECT_EQ(files->files[1].source, 1u) << "it is in two sources";
+  EXPECT_EQ(files->files[2].source, 0u);
+  EXPECT_EQ(files->files[2].bytes, 1u);
 }
 
 TEST(ListSources, OmitsSkippedFilesAndOtherKinds) {
@@ -67,7 +67,7 @@ TEST(ListSources, OmitsSkippedFilesAndOtherKinds) {
   settings.sources[0].kind = "bvh";
   const auto files = list_sources(folder.path(), settings);
   ASSERT_TRUE(files) << files.error().message();
-  EXPECT_EQ(names_of(*files), std::vector<std::string>{"a/walk.bvh"});
+  EXPECT_EQ(names_of(files->files), std::vector<std::string>{"a/walk.bvh"});
 }
 
 TEST(ListSources, RefusesASourceWithoutFilesWithItsLine) {
@@ -80,6 +80,102 @@ TEST(ListSources, RefusesASourceWithoutFilesWithItsLine) {
   EXPECT_NE(refusal("none").find("library.toml:7"), std::string::npos);
   EXPECT_NE(refusal("none").find("does not exist"), std::string::npos);
   EXPECT_NE(refusal("a").find(".bvh"), std::string::npos) << "names the kinds";
+}
+
+TEST(ListSources, CountsFilesOfOtherKinds) {
+  const testing::ScratchFolder folder;
+  for (const char* name : {"a/x.bvh",
+                           "a/x.bones.toml",
+                           "a/x.asf",
+                           "a/n.txt",
+                           "a/m.txt",
+                           "a/p.PNG",
+                           "a/none"}) {
+    ASSERT_TRUE(recordings::write_file(folder / name, "x"));
+  }
+  const auto files = list_sources(folder.path(), settings_of({"a"}));
+  ASSERT_TRUE(files) << files.error().message();
+  EXPECT_EQ(files->left_out_text(),
+            "4 files of other kinds were left out: 1 without extension, 1 .png, 2 .txt");
+  EXPECT_EQ(SourceListing{}.left_out_text(), "");
+}
+
+TEST(ListSources, TakesASessionAsOneSource) {
+  const testing::ScratchFolder folder;
+  for (const char* name :
+       {"s/session.toml", "s/walk/markers.c3d", "s/walk/motion.npz", "run.trc"}) {
+    ASSERT_TRUE(recordings::write_file(folder / name, "1234"));
+  }
+  const auto files = list_sources(folder.path(), settings_of({"."}));
+  ASSERT_TRUE(files) << files.error().message();
+  EXPECT_EQ(names_of(files->files), (std::vector<std::string>{"run.trc", "s"}));
+  EXPECT_EQ(files->files[1].kind, "session");
+  EXPECT_EQ(files->files[1].bytes, 12u);
+  for (const char* path : {"s", "s/session.toml"}) {
+    const auto one = list_sources(folder.path(), settings_of({path}));
+    ASSERT_TRUE(one) << one.error().message();
+    EXPECT_EQ(names_of(one->files), std::vector<std::string>{"s"});
+  }
+  LibrarySettings settings = settings_of({"s"});
+  settings.sources[0].kind = "c3d";
+  const auto inside = list_sources(folder.path(), settings);
+  ASSERT_TRUE(inside) << inside.error().message();
+  EXPECT_EQ(names_of(inside->files), std::vector<std::string>{"s/walk/markers.c3d"});
+}
+
+TEST(ListSources, NeverListsWhatABuildWrites) {
+  const testing::ScratchFolder folder;
+  for (const char* name : {"library.toml",
+                           "objects/ab/cd.npz",
+                           "failed/x.bvh",
+                           "a.bvh",
+                           "other/library.toml",
+                           "other/objects/ab/cd.npz",
+                           "plain/objects/b.bvh"}) {
+    ASSERT_TRUE(recordings::write_file(folder / name, "x"));
+  }
+  const auto files = list_sources(folder.path(), settings_of({"."}));
+  ASSERT_TRUE(files) << files.error().message();
+  EXPECT_EQ(names_of(files->files),
+            (std::vector<std::string>{"a.bvh", "plain/objects/b.bvh"}));
+  const auto own = list_sources(folder.path(), settings_of({"objects"}));
+  ASSERT_FALSE(own);
+  EXPECT_NE(own.error().cause.find("its build writes"), std::string::npos);
+  const auto others = list_sources(folder.path(), settings_of({"other/objects"}));
+  EXPECT_TRUE(others) << "motion objects of another library are sources";
+}
+
+TEST(ListSources, RefusesAnUnknownKind) {
+  const testing::ScratchFolder folder;
+  ASSERT_TRUE(recordings::write_file(folder / "a.bvh", "x"));
+  LibrarySettings settings = settings_of({"."});
+  settings.sources[0].kind = "bvhs";
+  const auto files = list_sources(folder.path(), settings);
+  ASSERT_FALSE(files);
+  EXPECT_NE(files.error().message().find("library.toml:7"), std::string::npos);
+  EXPECT_NE(files.error().next.find("recipe"), std::string::npos);
+}
+
+TEST(ListSources, FindsSubjectAndLabelsInNames) {
+  SourceFile file;
+  file.name = "cmu/02_01.amc";
+  file.kind = "amc";
+  LibrarySource source;
+  EXPECT_EQ(subject_of(file, source), "");
+  source.subject = "Ann";
+  EXPECT_EQ(subject_of(file, source), "Ann");
+  source.subject = "{subject}_*";
+  EXPECT_EQ(subject_of(file, source), "02");
+  source.subject = "";
+  source.pattern = "{subject}_{trial}.amc";
+  EXPECT_EQ(subject_of(file, source), "02") << "with its extension";
+  const auto labels = labels_of_name(file, source, 2.5);
+  ASSERT_EQ(labels.size(), 1u);
+  EXPECT_EQ(labels[0].text, "trial:01");
+  EXPECT_EQ(labels[0].by, "name");
+  EXPECT_EQ(labels[0].end_s, 2.5);
+  source.pattern = "run-{n}";
+  EXPECT_TRUE(labels_of_name(file, source, 2.5).empty());
 }
 
 TEST(ListSources, ReadsWordsInNames) {
