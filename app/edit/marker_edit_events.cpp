@@ -7,8 +7,6 @@
 #include <cstddef>
 #include <string_view>
 
-#include "core/base/printable.h"
-
 namespace marey::app {
 namespace {
 
@@ -34,17 +32,6 @@ MarkerEvent event_of_text(const std::string& text,
 }
 
 }  // namespace
-
-std::string text_of_event(const MarkerEvent& event) {
-  const bool has_side = event.context == "Left" || event.context == "Right";
-  const std::string side = event.context == "Left" ? "left" : "right";
-  if (has_side && event.label == "Foot Strike") return side + ".strike";
-  if (has_side && event.label == "Foot Off") return side + ".toe_off";
-  std::string out = event.context;
-  if (!out.empty() && !event.label.empty()) out += " ";
-  out += event.label;
-  return out.empty() ? "event" : printable(out);
-}
 
 std::vector<MarkerEvent> marker_events_of(const edit::MarkerState& state,
                                           const std::vector<MarkerEditEvent>& known) {

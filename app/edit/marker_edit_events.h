@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "edit/markers/marker_state.h"
@@ -11,9 +10,6 @@
 #include "recordings/markers/labelled_markers.h"
 
 namespace marey::app {
-
-/// Returns an event's text, without the subject: "left.strike", "Left Foot Contact".
-[[nodiscard]] std::string text_of_event(const recordings::MarkerEvent& event);
 
 /// Returns the annotations that are events as events of a C3D, on the clock of the
 /// tracks. `known` are the events of the source: one that is still at its time is

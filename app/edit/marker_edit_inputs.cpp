@@ -10,7 +10,7 @@
 
 #include "edit/markers/render_markers.h"
 
-#include "app/edit/marker_edit_events.h"
+#include "app/markers/marker_event_text.h"
 #include "core/base/extension.h"
 #include "core/base/printable.h"
 #include "recordings/base/sha256.h"

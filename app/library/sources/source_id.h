@@ -25,11 +25,6 @@ struct IdentifiedSource {
   SourceParts parts;
 };
 
-/// Files that the reader of labelled markers uses if they are in the folder of the
-/// markers: the subject of an earlier `marey fit`, and the meaning of labels.
-inline constexpr const char* kMarkerSubjectFile = "subject.toml";
-inline constexpr const char* kMarkerMapFile = "markers.toml";
-
 /// Returns the id of a source and its files. The id is the SHA-256 of the source's bytes
 /// if it is a single file. Otherwise it is the SHA-256 of a text with the role and the
 /// SHA-256 of each part: an AMC has its ASF, a glTF its buffers, any motion its bone map

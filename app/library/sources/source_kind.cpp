@@ -7,7 +7,6 @@
 #include <string_view>
 #include <system_error>
 
-#include "app/library/sources/source_id.h"
 #include "core/base/extension.h"
 
 namespace marey::app {

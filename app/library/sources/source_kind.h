@@ -13,6 +13,11 @@ inline constexpr const char* kSessionFile = "session.toml";
 /// Kind of a recipe of `marey edit` (NAME.edit.toml).
 inline constexpr const char* kRecipeKind = "recipe";
 
+/// Files that the reader of labelled markers uses if they are in the folder of the
+/// markers: the subject of an earlier `marey fit`, and the meaning of labels.
+inline constexpr const char* kMarkerSubjectFile = "subject.toml";
+inline constexpr const char* kMarkerMapFile = "markers.toml";
+
 /// Returns the kind of a source by its name: its extension in lower case without the
 /// point ("bvh"), kRecipeKind or kSessionKind; empty: no library reads it. Folders are
 /// sessions if they contain kSessionFile. Does not read the file.
