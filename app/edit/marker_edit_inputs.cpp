@@ -10,6 +10,7 @@
 
 #include "edit/markers/render_markers.h"
 
+#include "app/markers/marker_event_text.h"
 #include "core/base/extension.h"
 #include "core/base/printable.h"
 #include "recordings/base/sha256.h"
@@ -165,17 +166,6 @@ Result<MarkerEditFiles> read_first_source(const EditSource& source,
 }
 
 }  // namespace
-
-std::string text_of_event(const recordings::MarkerEvent& event) {
-  const bool has_side = event.context == "Left" || event.context == "Right";
-  const std::string side = event.context == "Left" ? "left" : "right";
-  if (has_side && event.label == "Foot Strike") return side + ".strike";
-  if (has_side && event.label == "Foot Off") return side + ".toe_off";
-  std::string out = event.context;
-  if (!out.empty() && !event.label.empty()) out += " ";
-  out += event.label;
-  return out.empty() ? "event" : printable(out);
-}
 
 bool edits_markers(const EditRecipe& recipe, const ReadEditOptions& options) {
   return has_markers_below(recipe, options, 0);

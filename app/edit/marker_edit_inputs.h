@@ -65,7 +65,4 @@ struct MarkerEditFiles {
 [[nodiscard]] Result<MarkerEditFiles> read_marker_edit_files(
     const EditRecipe& recipe, const ReadEditOptions& options);
 
-/// Returns an event's text, without the subject: "left.strike", "Left Foot Contact".
-[[nodiscard]] std::string text_of_event(const recordings::MarkerEvent& event);
-
 }  // namespace marey::app

@@ -44,7 +44,7 @@ struct RawBody {
   std::optional<recordings::BoundBody> bound;  ///< As recordings::Character's.
 };
 
-/// Reads a body file; of a glTF the animation with this index. Errors: unreadable;
+/// Reads a body file. `animation` is the index of a glTF's animation. Errors: unreadable;
 /// another kind of file; an .amc without its .asf.
 [[nodiscard]] Result<RawBody> read_raw_body(const std::filesystem::path& path,
                                             std::size_t animation = 0);

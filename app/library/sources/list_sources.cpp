@@ -210,10 +210,9 @@ Result<SourceListing> list_sources(const fs::path& library,
                        "correct the path; it is relative to the library");
     }
     if (!source.kind.empty() && !is_source_kind(source.kind)) {
-      return at_source(
-          "is of the kind " + in_quotes(source.kind) + ", which a library does not read",
-          "state one of bvh, amc, npz, glb, gltf, vrm, vrma, c3d, trc, "
-          "recipe and session, or remove `kind`");
+      return at_source("has the unknown kind " + in_quotes(source.kind),
+                       "state one of bvh, amc, npz, glb, gltf, vrm, vrma, c3d, trc, "
+                       "recipe and session, or remove `kind`");
     }
     if (is_in_own_folder(library, root)) {
       return at_source("is a part of the library that its build writes",

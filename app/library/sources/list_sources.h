@@ -21,7 +21,7 @@ struct SourceFile {
   std::string name;        ///< Path relative to the library if it is below it; with '/'.
   std::string kind;        ///< source_kind(): "bvh", "session".
   std::size_t source = 0;  ///< Index of its [[source]] in the settings.
-  std::uintmax_t bytes = 0;  ///< Of a folder: all its files.
+  std::uintmax_t bytes = 0;  ///< For a folder the sum of its files.
 };
 
 struct SourceListing {

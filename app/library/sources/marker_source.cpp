@@ -8,10 +8,10 @@
 #include <system_error>
 #include <utility>
 
-#include "app/edit/marker_edit_inputs.h"
-#include "app/library/sources/source_id.h"
+#include "app/library/sources/source_kind.h"
 #include "app/markers/fit_run.h"
 #include "app/markers/fit_words.h"
+#include "app/markers/marker_event_text.h"
 #include "app/shell/console.h"
 #include "reconstruct/labels/name_markers.h"
 #include "recordings/markers/marker_file.h"

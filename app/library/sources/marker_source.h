@@ -27,7 +27,8 @@ struct MarkerSourceOptions {
 /// removed_samples and filled_samples of the repair. Findings of the fit are remarks.
 /// Events of the file become events of the motion.
 /// Errors (kBadInput), with the file: more than 2000 markers; those of read_fit_givens()
-/// and solve_fit(), if no person can be solved. The result does not depend on the number of cores.
+/// and solve_fit(), if no person can be solved. The result does not depend on the number
+/// of cores.
 [[nodiscard]] Result<std::vector<SourceMotion>> solve_marker_source(
     const std::filesystem::path& path,
     recordings::MarkerFile file,

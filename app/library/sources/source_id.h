@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "app/library/sources/list_sources.h"
-#include "app/library/sources/source_kind.h"
 #include "core/base/result.h"
 
 namespace marey::app {

@@ -120,7 +120,7 @@ TEST_F(AddSources, RefusesWhatItCannotAdd) {
         a.paths = {folder_ / "in", folder_ / "in/02_01.bvh"};
       },
       "belong to sources");
-  expect_refused([&](Args& a) { a.kind = "obj"; }, "of the kind \"obj\"");
+  expect_refused([&](Args& a) { a.kind = "obj"; }, "unknown kind \"obj\"");
 }
 
 TEST_F(AddSources, KeepsABrokenLibraryAsItIs) {

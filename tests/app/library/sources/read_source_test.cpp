@@ -211,7 +211,7 @@ TEST(ReadSource, SolvesMarkersOfEachPerson) {
       all[1].motion.poses[30].root_in_world.x - all[0].motion.poses[30].root_in_world.x;
   EXPECT_NEAR(apart_m, 1.5, 0.01);
   for (const auto& entry : fs::directory_iterator(folder.path())) {
-    EXPECT_EQ(entry.path().filename(), "two.c3d") << "nothing is written beside it";
+    EXPECT_EQ(entry.path().filename(), "two.c3d") << "no other file is written";
   }
 }
 
