@@ -101,9 +101,18 @@ double still_share(const QualityFrames& frames) {
 }
 
 double t_pose_share(const QualityFrames& frames, const retarget::BodyMap& map) {
+  const std::vector<char> in_t_pose = t_pose_frames(frames, map);
+  const auto count = std::count(in_t_pose.begin(), in_t_pose.end(), 1);
+  return frames.count > 0 ? static_cast<double>(count) / frames.count : 0.0;
+}
+
+}  // namespace
+
+std::vector<char> t_pose_frames(const QualityFrames& frames,
+                                const retarget::BodyMap& map) {
   const double min_cosine = std::cos(15.0 * kRadiansPerDegree);
   const auto& hips = frames[B::kHips].world_from_t_pose;
-  int in_t_pose = 0;
+  std::vector<char> out(hips.size(), 0);
   for (std::size_t t = 0; t < hips.size(); ++t) {
     bool all = true;
     for (std::size_t l = 0; l < 4 && all; ++l) {
@@ -115,12 +124,10 @@ double t_pose_share(const QualityFrames& frames, const retarget::BodyMap& map) {
         all = all && glm::dot(turn * along, along) > min_cosine;
       }
     }
-    if (all) ++in_t_pose;
+    out[t] = all ? 1 : 0;
   }
-  return frames.count > 0 ? static_cast<double>(in_t_pose) / frames.count : 0.0;
+  return out;
 }
-
-}  // namespace
 
 std::array<FoundFigure, 3> measure_activity(const QualityFrames& frames,
                                             const retarget::BodyMap& map) {

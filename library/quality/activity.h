@@ -3,11 +3,17 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "library/quality/found_figure.h"
 #include "library/quality/quality_frames.h"
 
 namespace marey::library {
+
+/// Returns for each frame whether all limb bones are within 15 degrees of their direction
+/// in the T-pose, relative to the hips: 1 or 0. Linear in frames.
+[[nodiscard]] std::vector<char> t_pose_frames(const QualityFrames& frames,
+                                              const retarget::BodyMap& map);
 
 /// Measures the activity of a motion; no verdict follows from it: "sparc",
 /// "still_share" and "tpose_share".
@@ -19,8 +25,7 @@ namespace marey::library {
 ///   Melendez-Calderon, Roby-Brami, Burdet 2015, "On the analysis of movement
 ///   smoothness".)
 /// - still_share: share of frames in which every joint is slower than 5 cm/s.
-/// - tpose_share: share of frames in which all limb bones are within 15 degrees of their
-///   direction in the T-pose, relative to the hips.
+/// - tpose_share: share of frames of t_pose_frames().
 ///
 /// Linear in frames.
 [[nodiscard]] std::array<FoundFigure, 3> measure_activity(const QualityFrames& frames,
