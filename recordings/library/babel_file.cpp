@@ -47,6 +47,12 @@ const BabelJson& value_of(const BabelJson& object, const char* key) {
   return found == object.end() ? kNull : *found;
 }
 
+bool has_possible_times(const LabelRow& row) {
+  const double start_s = row.start_s.value_or(0.0);
+  const double end_s = row.end_s.value_or(kMaxLabel_s);
+  return start_s <= end_s && end_s <= kMaxLabel_s;
+}
+
 /// Reads the sequences. Stores the first mistake.
 class BabelReader {
  public:
@@ -108,8 +114,7 @@ class BabelReader {
     }
     std::string text = text_of_key(label, "proc_label");
     if (text.empty()) text = text_of_key(label, "raw_label");
-    const bool is_reversed = row.end_s && *row.end_s < row.start_s.value_or(0.0);
-    if (text.empty() || is_reversed) {
+    if (text.empty() || !has_possible_times(row)) {
       ++out_.left_out;
       return;
     }

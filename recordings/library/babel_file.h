@@ -15,7 +15,7 @@ namespace marey::recordings {
 /// Labels of a file of BABEL.
 struct BabelLabels {
   std::vector<LabelRow> rows;  ///< In the order of the file's sequences by name.
-  /// Labels without text, or that end before they start.
+  /// Labels without text, that end before they start, or after kMaxLabel_s.
   int left_out = 0;
 };
 

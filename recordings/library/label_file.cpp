@@ -14,8 +14,6 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kLabelColumns = {
     "clip_or_source", "start_s", "end_s", "label", "by", "sure"};
-/// A day.
-constexpr double kMaxLabel_s = 86400.0;
 
 enum LabelColumn : std::size_t { kTarget, kStart, kEnd, kText, kBy, kSure };
 

@@ -13,6 +13,9 @@
 
 namespace marey::recordings {
 
+/// Largest time of a label: a day. [s]
+inline constexpr double kMaxLabel_s = 86400.0;
+
 /// A line of a table of labels: a name for a part of a clip or of a source, by a person.
 struct LabelRow {
   std::string target;  ///< Id of a clip, or the name of a source.

@@ -106,12 +106,29 @@ bool write_calibration_seeds(const fs::path& folder) {
          write_file(folder / "xml", "\2"s + xml).has_value();
 }
 
+bool write_label_seeds(const fs::path& folder) {
+  const std::string labels =
+      "clip_or_source,start_s,end_s,label,by,sure\r\n"
+      "walks/a.bvh,0.5,2,\"turn, "
+      "\"\"left\"\"\",anna,0.5\r\n0123456789abcdef,,,clap,,\r\n";
+  const std::string verdicts =
+      "clip,figure,frames,verdict,by,note\n0123456789abcdef,slide_cm_s,5-9,pass,bo,a\n";
+  const std::string babel =
+      R"({"1":{"feat_p":"C/C/1/a_poses.npz","seq_ann":{"labels":[{"proc_label":"walk",)"
+      R"("act_cat":["walk"]}]},"frame_ann":{"labels":[{"raw_label":"b","start_t":0,)"
+      R"("end_t":1.5}]},"seq_anns":[],"frame_anns":null}})";
+  return write_file(folder / "labels.csv", labels).has_value() &&
+         write_file(folder / "verdicts.csv", verdicts).has_value() &&
+         write_file(folder / "babel.json", babel).has_value();
+}
+
 }  // namespace
 
 bool write_result_seeds(const fs::path& folder, const Motion& motion) {
   return write_npz_seeds(folder / "npz", motion) && write_take_seeds(folder / "take") &&
          write_setting_seeds(folder / "settings") &&
          write_calibration_seeds(folder / "calibration") &&
+         write_label_seeds(folder / "labels") &&
          write_vrma(folder / "vrma/motion.vrma", motion).has_value() &&
          write_file(folder / "report/report",
                     R"({"summary":{"a":[1,2.5e3,[[]],{"b":"\"[{\u00e9"}]},"x":null})")

@@ -8,8 +8,8 @@
 
 namespace marey::fuzz {
 
-/// Writes seeds of results and settings: npz, report, calibration, settings, take, vrma.
-/// False when one cannot be written.
+/// Writes seeds of results and settings: npz, report, calibration, labels, settings,
+/// take, vrma. False when one cannot be written.
 [[nodiscard]] bool write_result_seeds(const std::filesystem::path& folder,
                                       const Motion& motion);
 

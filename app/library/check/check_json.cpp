@@ -80,24 +80,26 @@ CheckJson clip_problem_json(const ClipRecord& clip, const ClipProblem& problem) 
 }
 
 CheckJson clip_json(const ClipRecord& clip) {
-  CheckJson figures = CheckJson::array();
+  CheckJson out = {{"clip", clip.clip_id},
+                   {"name", clip.name},
+                   {"source", clip.provenance.path},
+                   {"licence", clip.provenance.licence},
+                   {"quality", name(clip.quality)},
+                   {"seconds", rounded(clip.duration_s(), 4)},
+                   {"rate_hz", clip.rate_hz},
+                   {"duplicate_of", clip.duplicate_of},
+                   {"figures", CheckJson::array()},
+                   {"problems", CheckJson::array()}};
+  // Lists are filled in place: an initializer would copy them.
+  CheckJson& figures = out["figures"];
   for (const ClipFigure& figure : clip.figures) {
     figures.push_back(clip_figure_json(figure));
   }
-  CheckJson problems = CheckJson::array();
+  CheckJson& problems = out["problems"];
   for (const ClipProblem& problem : clip.problems) {
     problems.push_back(clip_problem_json(clip, problem));
   }
-  return {{"clip", clip.clip_id},
-          {"name", clip.name},
-          {"source", clip.provenance.path},
-          {"licence", clip.provenance.licence},
-          {"quality", name(clip.quality)},
-          {"seconds", rounded(clip.duration_s(), 4)},
-          {"rate_hz", clip.rate_hz},
-          {"duplicate_of", clip.duplicate_of},
-          {"figures", figures},
-          {"problems", problems}};
+  return out;
 }
 
 }  // namespace

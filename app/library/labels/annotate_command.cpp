@@ -113,7 +113,7 @@ void report_unmatched(const ImportedLabels& labels,
             "labels",
             file.string(),
             std::to_string(labels.left_out) +
-                " labels have no text, or end before they start, and are left out")
+                " labels have no text or impossible times, and are left out")
             .message());
   }
 }

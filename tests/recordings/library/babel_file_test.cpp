@@ -22,7 +22,8 @@ constexpr std::string_view kBabel = R"({
     {"raw_label": "Walks \n on", "proc_label": null, "act_cat": null, "start_t": 0.5,
      "end_t": 4.5},
     {"raw_label": null, "proc_label": "", "act_cat": [], "start_t": 1, "end_t": 2},
-    {"raw_label": "b", "proc_label": "back", "act_cat": null, "start_t": 2, "end_t": 1}]}},
+    {"raw_label": "b", "proc_label": "back", "act_cat": null, "start_t": 2, "end_t": 1},
+    {"raw_label": "b", "proc_label": "late", "act_cat": null, "start_t": 1e9}]}},
  "10": {"feat_p": "KIT/KIT/3/kick_poses.npz", "frame_anns": null, "seq_anns": [
    {"labels": [{"raw_label": "kick", "proc_label": "kick", "act_cat": ["kick"]}]},
    {"labels": [{"raw_label": "kick", "proc_label": "kick", "act_cat": null}]}]},
@@ -45,7 +46,7 @@ TEST(BabelFile, MakesLabelsOfSequencesAndTheirParts) {
             "CMU walk\nCMU act_cat:walk\n"
             "CMU stand 0.0-0.5\nCMU act_cat:stand 0.0-0.5\nCMU act_cat:still 0.0-0.5\n"
             "CMU Walks on 0.5-4.5\n");
-  EXPECT_EQ(read->left_out, 2);
+  EXPECT_EQ(read->left_out, 3);
 }
 
 TEST(BabelFile, RefusesOtherContentWithTheSequence) {
