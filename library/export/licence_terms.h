@@ -53,7 +53,7 @@ enum class LicenceBar {
 
 struct LicenceDecision {
   LicenceBar bar = LicenceBar::kNone;
-  /// The licences that apply: of the most permissive alternative if there are several.
+  /// The licences that apply. If there are alternatives, the most permissive one.
   std::vector<std::string> applied;
   bool is_choice = false;  ///< The expression had alternatives.
   LicenceTerms terms;      ///< The strictest of `applied`.

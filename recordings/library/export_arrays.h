@@ -44,7 +44,7 @@ struct MatchingDatabase {
   std::vector<float> scale;          ///< One per column.
   std::vector<std::int32_t> starts;  ///< First frame of each clip.
   std::vector<std::int32_t> stops;   ///< Frame after the last one of each clip.
-  std::vector<double> rates_hz;      ///< Of each clip.
+  std::vector<double> rates_hz;      ///< Rate of each clip.
   std::vector<std::string> clip_ids;
   std::vector<std::string> columns;  ///< Names.
 };

@@ -6,9 +6,9 @@
 check_library_export.py LIB DIR FORMAT [--own]
 
 Reads the files of DIR, written by `marey library export LIB --to DIR --as FORMAT`, and
-checks MANIFEST.sha256 and the layout. With --own (bodies, rates and places were not
-changed), also compares the joints of each clip with those that forward kinematics here
-gives for the objects of LIB. Exit 1 and a message if something differs; 77 without NumPy.
+checks MANIFEST.sha256 and the layout. With --own, for exports that changed no body, rate
+or place, it also compares the joints of each clip with forward kinematics of the objects
+in LIB. Exit 1 and a message if something differs; 77 without NumPy.
 """
 import csv
 import hashlib

@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/library/export/export_options.h"
+#include "app/library/export/export_report.h"
 #include "app/shell/console.h"
 #include "app/shell/exit_codes.h"
 #include "core/base/result.h"
@@ -40,8 +41,6 @@ struct LibraryExportArguments {
 /// parse_split()'s.
 [[nodiscard]] Result<ExportOptions> resolve_export(const LibraryExportArguments& args,
                                                    const LibrarySettings& settings);
-
-struct ExportReport;
 
 /// Prints the results of an export: one line per fact, or one JSON object on standard
 /// output. Returns exit code 4 if clips were left out.

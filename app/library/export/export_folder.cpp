@@ -3,18 +3,11 @@
 #include "app/library/export/export_folder.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <set>
 #include <string>
 #include <system_error>
-#include <utility>
 #include <vector>
-
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include "app/shell/option_checks.h"
 #include "core/base/in_quotes.h"
@@ -25,12 +18,6 @@ namespace marey::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Returns `out` without a separator at its end, which would hide its name.
-fs::path without_slash(const fs::path& out) {
-  const fs::path clean = out.lexically_normal();
-  return clean.has_filename() ? clean : clean.parent_path();
-}
 
 Error of_disk(const fs::path& path, const std::string& cause, int error) {
   return {Errc::kDevice,
@@ -79,56 +66,6 @@ Status check_only_exported(const fs::path& out) {
   return Done{};
 }
 
-Status write_manifest(const fs::path& folder) {
-  const auto files = files_below(folder);
-  if (!files) return files.error();
-  std::string text;
-  for (const std::string& file : *files) {
-    const auto digest = recordings::sha256_of_file(folder / file);
-    if (!digest) return digest.error();
-    text += *digest + "  " + file + "\n";
-  }
-  return recordings::write_file(folder / kManifest, text);
-}
-
-/// Opens and locks a folder. Returns -1 if another process holds the lock.
-int lock_folder(const fs::path& folder) {
-  const int fd = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    close(fd);
-    return -1;
-  }
-  return fd;
-}
-
-Error written_by_another(const fs::path& out) {
-  return bad_input(out.string(),
-                   "another process is writing an export to it",
-                   "wait until it ends, or choose another folder");
-}
-
-/// Moves `from` to `to`, which may be an empty folder or an earlier export; that is then
-/// at `from`.
-bool move_into_place(const fs::path& from, const fs::path& to) {
-  std::error_code problem;
-  if (!fs::exists(to, problem) || fs::is_empty(to, problem)) {
-    return std::rename(from.c_str(), to.c_str()) == 0;
-  }
-  if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_EXCHANGE) == 0) {
-    return true;
-  }
-  // Some file systems cannot exchange.
-  const fs::path old = from.string() + ".old";
-  if (std::rename(to.c_str(), old.c_str()) != 0) return false;
-  if (std::rename(from.c_str(), to.c_str()) == 0) {
-    return std::rename(old.c_str(), from.c_str()) == 0;
-  }
-  const int error = errno;
-  std::rename(old.c_str(), to.c_str());
-  errno = error;
-  return false;
-}
-
 }  // namespace
 
 Status check_export_folder(const fs::path& out, bool replaces) {
@@ -148,43 +85,16 @@ Status check_export_folder(const fs::path& out, bool replaces) {
   return check_only_exported(out);
 }
 
-Result<ExportFolder> ExportFolder::create(const fs::path& out, bool replaces) {
-  if (const Status ok = check_export_folder(out, replaces); !ok) return ok.error();
-  const fs::path final_path = without_slash(out);
-  const fs::path partial = final_path.parent_path() /
-                           ("." + final_path.filename().string() + ".marey-partial");
-  std::error_code problem;
-  if (fs::exists(partial, problem)) {
-    const int fd = lock_folder(partial);
-    if (fd < 0) return written_by_another(out);
-    fs::remove_all(partial, problem);
-    close(fd);
+Status write_manifest(const fs::path& folder) {
+  const auto files = files_below(folder);
+  if (!files) return files.error();
+  std::string text;
+  for (const std::string& file : *files) {
+    const auto digest = recordings::sha256_of_file(folder / file);
+    if (!digest) return digest.error();
+    text += *digest + "  " + file + "\n";
   }
-  fs::create_directories(partial, problem);
-  if (problem) return of_disk(partial, "cannot be created", problem.value());
-  const int fd = lock_folder(partial);
-  if (fd < 0) return written_by_another(out);
-  return ExportFolder(final_path, partial, fd);
-}
-
-ExportFolder::ExportFolder(ExportFolder&& other) noexcept
-    : out_(std::move(other.out_)),
-      partial_(std::exchange(other.partial_, {})),
-      lock_fd_(std::exchange(other.lock_fd_, -1)) {}
-
-ExportFolder::~ExportFolder() {
-  if (partial_.empty()) return;
-  std::error_code ignored;
-  fs::remove_all(partial_, ignored);
-  if (lock_fd_ >= 0) close(lock_fd_);
-}
-
-Status ExportFolder::commit() {
-  if (const Status ok = write_manifest(partial_); !ok) return ok;
-  if (!move_into_place(partial_, out_)) {
-    return of_disk(out_, "the finished export cannot be moved to it", errno);
-  }
-  return Done{};
+  return recordings::write_file(folder / kManifest, text);
 }
 
 }  // namespace marey::app

@@ -12,6 +12,7 @@
 #include "app/library/export/export_sheets.h"
 #include "core/base/assert.h"
 #include "recordings/base/atomic_file.h"
+#include "recordings/base/atomic_folder.h"
 #include "recordings/library/library_index.h"
 
 namespace marey::app {
@@ -140,18 +141,19 @@ Result<ExportReport> export_library(const ExportOptions& options,
   if (clips.empty()) return nothing_to_export(options, report);
   report.licences = decide_licences(clips, options);
   if (const Status ok = check_licences(report.licences, options); !ok) return ok.error();
-  auto folder = ExportFolder::create(options.out, options.replaces);
+  auto folder = recordings::AtomicFolder::create(options.out);
   if (!folder) return folder.error();
-  ClipExport output(options, *body, folder->path());
+  ClipExport output(options, *body, folder->partial());
   for (std::size_t i = 0; i < clips.size(); ++i) {
     if (const Status ok = output.add(*clips[i], report); !ok) return ok.error();
     if (progress) progress(static_cast<int>(i + 1), static_cast<int>(clips.size()));
   }
   if (report.clips.empty()) return nothing_to_export(options, report);
   if (const Status ok = output.finish(); !ok) return ok.error();
-  if (const Status ok = write_texts(report, options, folder->path()); !ok) {
+  if (const Status ok = write_texts(report, options, folder->partial()); !ok) {
     return ok.error();
   }
+  if (const Status ok = write_manifest(folder->partial()); !ok) return ok.error();
   if (const Status ok = folder->commit(); !ok) return ok.error();
   return report;
 }

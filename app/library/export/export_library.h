@@ -2,38 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "app/library/export/check_licences.h"
 #include "app/library/export/export_options.h"
-#include "app/library/export/exported_clip.h"
+#include "app/library/export/export_report.h"
 #include "core/base/progress.h"
 #include "core/base/result.h"
 #include "core/library/clip_record.h"
 
 namespace marey::app {
-
-/// A clip that was selected, but is not in the export.
-struct LeftOutClip {
-  std::string clip_id;
-  std::string name;
-  std::string reason;
-};
-
-/// Content of an export.
-struct ExportReport {
-  std::vector<ClipRecord> clips;  ///< As exported, mirrored copies after their clips.
-  std::int64_t frames = 0;
-  std::size_t selected = 0;  ///< Clips that the query selected.
-  std::size_t in_library = 0;
-  std::vector<LeftOutClip> left_out;
-  std::vector<UnknownSide> unknown_sides;
-  std::vector<LicenceGroup> licences;  ///< Of the selected clips, by place in `selected`.
-};
 
 /// Exports clips of a library as a folder (docs/formats/library_exports.md): the files of
 /// the layout, MANIFEST.sha256, LICENCES.md, DATASHEET.md and splits.csv. The folder

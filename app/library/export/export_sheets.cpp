@@ -249,7 +249,7 @@ std::string licences_text(const ExportReport& report, const ExportOptions& optio
     std::string heading = in_cell(group.expression);
     text += "## " + heading + "\n\n";
     if (group.decision.is_choice) {
-      text += "Of the alternatives, the most permissive one was chosen: " +
+      text += "The most permissive alternative was chosen: " +
               joined(group.decision.applied, " AND ") + ".\n";
     }
     text += conditions_of(group.decision) + "\n\n";

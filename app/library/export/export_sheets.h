@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "app/library/export/export_library.h"
 #include "app/library/export/export_options.h"
+#include "app/library/export/export_report.h"
 
 // Texts for people that every export has.
 namespace marey::app {

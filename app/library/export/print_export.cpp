@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/library/export/export_commands.h"
-#include "app/library/export/export_library.h"
+#include "app/library/export/export_report.h"
 #include "app/library/export/export_sheets.h"
 #include "core/base/format_text.h"
 #include "core/base/in_quotes.h"

@@ -178,7 +178,8 @@ TEST(ExportLibrary, StatesLicencesWithAttributionAndChoice) {
   const std::string text = text_of(options.out / "LICENCES.md");
   EXPECT_TRUE(contains(text, "## CC-BY-4.0\n\nName the origin.")) << text;
   EXPECT_TRUE(contains(text, "- Anna's, lab, 2024\n")) << text;
-  EXPECT_TRUE(contains(text, "the most permissive one was chosen: MIT.\n")) << text;
+  EXPECT_TRUE(contains(text, "The most permissive alternative was chosen: MIT.\n"))
+      << text;
   EXPECT_TRUE(contains(text, "Be kind.\n")) << text;
   for (const ClipRecord& clip : report->clips) {
     EXPECT_TRUE(contains(text, "\n" + clip.clip_id + "\n"));
