@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/base/tar_writer.h"
+#include "recordings/library/tar_writer.h"
 
 #include <cstddef>
 #include <utility>
