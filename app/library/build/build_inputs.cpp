@@ -42,6 +42,22 @@ std::vector<fs::path> label_files(const fs::path& library) {
   return out;
 }
 
+/// Reads the digest of the labels, and the labels if motions are divided by them.
+Status read_labels_of(BuildInputs& out) {
+  std::string digests;
+  for (const fs::path& labels : label_files(out.library)) {
+    const auto digest = recordings::sha256_of_file(labels);
+    if (!digest) return digest.error();
+    digests += labels.filename().string() + *digest;
+  }
+  out.labels_digest = recordings::sha256(digests);
+  if (out.settings.segment != SegmentBy::kLabels) return Done{};
+  auto labels = read_library_labels(out.library);
+  if (!labels) return labels.error();
+  out.labels = std::move(*labels);
+  return Done{};
+}
+
 /// Reads the index tables of all sources, and adds their digests.
 Status read_tables(BuildInputs& out, std::string& digests) {
   for (const LibrarySource& source : out.settings.sources) {
@@ -101,11 +117,8 @@ Result<BuildInputs> read_build_inputs(const fs::path& library) {
   out.settings = std::move(*settings);
   std::string digests = recordings::sha256(*text);
   if (const Status ok = read_tables(out, digests); !ok) return ok.error();
-  for (const fs::path& labels : label_files(out.library)) {
-    const auto digest = recordings::sha256_of_file(labels);
-    if (!digest) return digest.error();
-    digests += labels.filename().string() + *digest;
-  }
+  if (const Status ok = read_labels_of(out); !ok) return ok.error();
+  digests += out.labels_digest;
   out.digest = recordings::sha256(digests);
   return out;
 }
@@ -126,6 +139,7 @@ SourceKeys keys_of(const BuildInputs& inputs,
   const auto entry = inputs.find_in_table(file);
   if (entry && entry->rate_hz) reading += " table " + exact_text(*entry->rate_hz);
   std::string clips = "segment " + std::to_string(static_cast<int>(settings.segment));
+  if (settings.segment == SegmentBy::kLabels) clips += " " + inputs.labels_digest;
   for (const QualityLimit& limit : settings.limits) {
     clips +=
         " " + limit.figure + " " + exact_text(limit.warn) + " " + exact_text(limit.fail);

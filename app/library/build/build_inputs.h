@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/library/labels/library_labels.h"
 #include "app/library/sources/index_table.h"
 #include "app/library/sources/list_sources.h"
 #include "core/base/result.h"
@@ -20,6 +21,9 @@ struct BuildInputs {
   LibrarySettings settings;
   /// Index table of each source in the settings; nullopt: it has none.
   std::vector<std::optional<IndexTable>> tables;
+  /// Labels of people, if motions are divided by them.
+  std::optional<LibraryLabels> labels;
+  std::string labels_digest;  ///< SHA-256 of the tables of labels.
   /// SHA-256 of library.toml, the index tables and the labels.
   std::string digest;
 

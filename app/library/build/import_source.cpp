@@ -160,11 +160,17 @@ Result<SourceStage> import_stage(const BuildInputs& inputs,
 /// Makes the records and features of a source's clips.
 Status import_clips(const BuildInputs& inputs,
                     ObjectWriter& objects,
+                    const SourceFile& file,
                     const SourceStage& stage,
                     const std::string& source_id,
-                    const std::string& key) {
-  const auto clips = make_clips(inputs, stage, source_id);
+                    const std::string& key,
+                    std::vector<std::string>& remarks) {
+  const auto clips = make_clips(inputs, file, stage, source_id);
   if (!clips) return clips.error();
+  if (clips->records.empty()) {
+    remarks.push_back(
+        "no part of its motions became a clip: see [segment] in library.toml");
+  }
   if (const Status ok = objects.write(key, ".f32", clips->features); !ok) return ok;
   // The records last: if they exist, so do the features.
   return objects.write(key, ".json", recordings::clip_records_text(clips->records));
@@ -213,7 +219,8 @@ ImportedSource import_source(const BuildInputs& inputs, const SourceFile& file) 
     return out;
   }
   out.outcome.remarks = stage->remarks;
-  const Status ok = import_clips(inputs, objects, *stage, known->id, keys.clips);
+  const Status ok = import_clips(
+      inputs, objects, file, *stage, known->id, keys.clips, out.outcome.remarks);
   if (!ok) {
     out.outcome.failure = with_name(ok.error(), file);
     out.outcome.is_disk_failure = objects.has_failed();

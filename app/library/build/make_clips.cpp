@@ -3,6 +3,7 @@
 #include "app/library/build/make_clips.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -10,8 +11,12 @@
 #include "library/clips/normal_form.h"
 #include "library/features/body_features.h"
 #include "library/features/feature_span.h"
+#include "library/labels/found_labels.h"
 #include "library/quality/measure_quality.h"
+#include "library/segments/find_segments.h"
+#include "library/segments/trim_idle.h"
 
+#include "app/library/labels/apply_labels.h"
 #include "core/base/frame_range.h"
 #include "core/library/library_motion.h"
 #include "recordings/library/clip_record_file.h"
@@ -60,12 +65,73 @@ void sort_values(ClipRecord& record) {
   });
 }
 
+/// A clip before its measurement.
+struct ClipRange {
+  FrameRange poses;               ///< In the motion.
+  std::vector<ClipEvent> events;  ///< Idle frames that were cut next to it.
+};
+
+/// Returns the labels by people of the whole motion, to divide it by.
+std::vector<ClipLabel> labels_of_motion(const BuildInputs& inputs,
+                                        const SourceFile& file,
+                                        const ClipRecord& body) {
+  if (!inputs.labels) return {};
+  std::vector<ClipRecord> whole = {body};
+  whole[0].provenance.path = file.name;
+  whole[0].clip_id.clear();
+  (void)apply_labels(*inputs.labels, whole);
+  return whole[0].labels;
+}
+
+/// Returns the clips of a motion, in the order of their first poses.
+std::vector<ClipRange> find_clips(const BuildInputs& inputs,
+                                  const SourceFile& file,
+                                  const ClipRecord& body,
+                                  const LibraryMotion& motion,
+                                  const retarget::BodyMap& map) {
+  const library::TrimmedIdle idle = library::trim_idle(motion.motion, map);
+  const int first = idle.kept.first;
+  std::vector<ClipLabel> labels = labels_of_motion(inputs, file, body);
+  for (ClipLabel& label : labels) {
+    label.start_s -= first / body.rate_hz;
+    label.end_s -= first / body.rate_hz;
+  }
+  std::vector<ClipRange> out;
+  for (const FrameRange& part :
+       library::find_segments(library::part_of(motion, first, idle.kept.last),
+                              map,
+                              inputs.settings.segment,
+                              labels)) {
+    ClipRange& clip = out.emplace_back();
+    clip.poses = {first + part.first, first + part.last};
+    for (std::size_t i = 0; i < idle.cut.size(); ++i) {
+      const bool is_before = idle.cut[i].frames.last < first;
+      const bool is_next =
+          is_before ? clip.poses.first == first : clip.poses.last == idle.kept.last;
+      if (!is_next) continue;
+      const int frame = is_before ? 0 : clip.poses.last - clip.poses.first;
+      clip.events.push_back({frame, idle.events[i].name});
+    }
+  }
+  return out;
+}
+
+/// Adds the labels and events that the motion shows.
+void add_found_labels(const LibraryMotion& part,
+                      const retarget::BodyMap& map,
+                      ClipRecord& out) {
+  library::FoundLabels found = library::find_labels(part, map);
+  for (ClipLabel& label : found.labels) out.labels.push_back(std::move(label));
+  for (ClipEvent& event : found.events) out.events.push_back(std::move(event));
+}
+
 ClipRecord record_of(const BuildInputs& inputs,
                      const ClipRecord& body,
                      const std::string& source_id,
                      const LibraryMotion& part,
                      const retarget::BodyMap& map,
-                     const FrameRange& poses) {
+                     const ClipRange& range) {
+  const FrameRange& poses = range.poses;
   ClipRecord out;
   out.object_key = body.object_key;
   out.body = body.body;
@@ -82,6 +148,8 @@ ClipRecord record_of(const BuildInputs& inputs,
   out.figures = std::move(quality.figures);
   out.problems = std::move(quality.problems);
   out.quality = quality.quality;
+  out.events = range.events;
+  add_found_labels(part, map, out);
   add_source_values(body, poses, out);
   sort_values(out);
   return out;
@@ -90,6 +158,7 @@ ClipRecord record_of(const BuildInputs& inputs,
 }  // namespace
 
 Result<SourceClips> make_clips(const BuildInputs& inputs,
+                               const SourceFile& file,
                                const recordings::SourceStage& stage,
                                const std::string& source_id) {
   SourceClips out;
@@ -104,11 +173,11 @@ Result<SourceClips> make_clips(const BuildInputs& inputs,
     const library::BodyFeatures features = library::body_features(motion->motion, *map);
     const library::FeatureSpan whole =
         library::feature_span(body.first_frame, body.last_frame, body.rate_hz);
-    const FrameRange all{0, static_cast<int>(motion->motion.poses.size()) - 1};
-    for (const FrameRange& poses : {all}) {
-      const LibraryMotion part = library::part_of(*motion, poses.first, poses.last);
+    for (const ClipRange& range : find_clips(inputs, file, body, *motion, *map)) {
+      const LibraryMotion part =
+          library::part_of(*motion, range.poses.first, range.poses.last);
       const ClipRecord& record =
-          out.records.emplace_back(record_of(inputs, body, source_id, part, *map, poses));
+          out.records.emplace_back(record_of(inputs, body, source_id, part, *map, range));
       const auto clip_rows = library::rows_of_part(
           features.rows,
           whole,

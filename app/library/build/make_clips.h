@@ -21,10 +21,11 @@ struct SourceClips {
   std::string features;
 };
 
-/// Divides the motions of a source into clips, and measures them: quality, labels,
-/// events. Reads the motions' objects, not the source.
-/// Errors: an object that cannot be read.
+/// Removes idle frames from both ends of the motions of a source, divides the rest into
+/// clips (LibrarySettings::segment), and measures them: quality, labels, events. Reads
+/// the motions' objects, not the source. Errors: an object that cannot be read.
 [[nodiscard]] Result<SourceClips> make_clips(const BuildInputs& inputs,
+                                             const SourceFile& file,
                                              const recordings::SourceStage& stage,
                                              const std::string& source_id);
 
