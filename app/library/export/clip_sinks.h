@@ -16,8 +16,8 @@
 #include "app/library/export/clip_sink.h"
 #include "core/skeleton.h"
 #include "recordings/base/atomic_file.h"
-#include "recordings/library/tar_writer.h"
 #include "recordings/library/export_arrays.h"
+#include "recordings/library/tar_writer.h"
 
 // Layouts with files of several clips, for make_clip_sink().
 namespace marey::app {

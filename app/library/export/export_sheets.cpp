@@ -149,14 +149,11 @@ std::string left_out_of(const ExportReport& report) {
   if (!report.unknown_sides.empty()) {
     text +=
         "Labels without a known other side, not in the mirrored copies:\n\n"
-        "| label | word | clips |\n|---|---|---|\n";
-    std::map<std::pair<std::string, std::string>, std::set<std::string>> labels;
-    for (const auto& [clip, label, word] : report.unknown_sides) {
-      labels[{label, word}].insert(clip);
-    }
+        "| label | clips |\n|---|---|\n";
+    std::map<std::string, std::set<std::string>> labels;
+    for (const auto& [clip, label] : report.unknown_sides) labels[label].insert(clip);
     for (const auto& [label, clips] : labels) {
-      text += "| " + in_cell(label.first) + " | " + in_cell(label.second) + " | " +
-              std::to_string(clips.size()) + " |\n";
+      text += "| " + in_cell(label) + " | " + std::to_string(clips.size()) + " |\n";
     }
     text += "\n";
   }

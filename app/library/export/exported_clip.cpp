@@ -12,9 +12,9 @@
 #include "edit/state/edit_state.h"
 #include "edit/state/mirror_names.h"
 #include "library/clips/normal_form.h"
-#include "library/export/mirrored_label.h"
 #include "library/export/named_skeleton.h"
 #include "library/export/start_at_origin.h"
+#include "library/labels/exchange_sides.h"
 
 #include "core/base/in_quotes.h"
 #include "core/resample.h"
@@ -127,10 +127,9 @@ Result<LibraryMotion> on_body(LibraryMotion motion, const ExportBody& body) {
 std::optional<std::string> exchanged(const std::string& clip_id,
                                      const std::string& text,
                                      std::vector<UnknownSide>& unknown) {
-  library::MirroredLabel mirrored = library::mirrored_label(text);
-  if (mirrored.unknown_word.empty()) return std::move(mirrored.text);
-  unknown.push_back({clip_id, text, std::move(mirrored.unknown_word)});
-  return std::nullopt;
+  auto mirrored = library::exchanged_sides(text);
+  if (!mirrored) unknown.push_back({clip_id, text});
+  return mirrored;
 }
 
 }  // namespace

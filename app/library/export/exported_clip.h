@@ -43,12 +43,11 @@ struct ExportBody {
 struct UnknownSide {
   std::string clip_id;
   std::string label;
-  std::string word;
 };
 
 /// Returns the copy of a record for the mirrored motion: id, mirror_of, labels, events
-/// and joints with sides exchanged. Labels and events with an unknown word are left out
-/// and appended to `unknown`.
+/// and joints with sides exchanged. Labels and events with an unknown side
+/// (exchanged_sides()) are left out and appended to `unknown`.
 [[nodiscard]] ClipRecord mirrored_record(const ClipRecord& record,
                                          std::vector<UnknownSide>& unknown);
 

@@ -45,8 +45,7 @@ Json export_json(const ExportReport& report, const ExportOptions& options) {
   }
   Json sides = Json::array();
   for (const UnknownSide& side : report.unknown_sides) {
-    sides.push_back(
-        {{"clip_id", side.clip_id}, {"label", side.label}, {"word", side.word}});
+    sides.push_back({{"clip_id", side.clip_id}, {"label", side.label}});
   }
   return {{"format", 1},
           {"folder", options.out.string()},
@@ -112,9 +111,9 @@ Exit print_export(const ExportReport& report,
   std::set<std::string> labels;
   for (const UnknownSide& side : report.unknown_sides) {
     if (!labels.insert(side.label).second) continue;
-    console.warn("label " + in_quotes(side.label) + ": the other side of " +
-                 in_quotes(side.word) +
-                 " is not known; mirrored copies do not have this label. Next: write "
+    console.warn("label " + in_quotes(side.label) +
+                 ": its other side is not known; mirrored copies do not have this label. "
+                 "Next: write "
                  "left or right as a word of its own.");
   }
   if (as_json) {

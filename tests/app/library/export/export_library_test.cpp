@@ -236,9 +236,9 @@ TEST(ExportLibrary, MirrorsMotionsLabelsEventsAndContacts) {
   EXPECT_EQ(mirrored.events[0].name, "right.strike");
   EXPECT_EQ(mirrored.figures[0].joint, "rightFoot");
   ASSERT_EQ(report->unknown_sides.size(), 1u);
-  EXPECT_EQ(report->unknown_sides[0].word, "leftish");
-  EXPECT_TRUE(contains(text_of(options.out / "DATASHEET.md"),
-                       "| a \"leftish\", step | leftish | 1 |"));
+  EXPECT_EQ(report->unknown_sides[0].label, "a \"leftish\", step");
+  EXPECT_TRUE(
+      contains(text_of(options.out / "DATASHEET.md"), "| a \"leftish\", step | 1 |"));
   const auto plain = recordings::read_bvh(options.out / (mirrored.mirror_of + ".bvh"));
   const auto other = recordings::read_bvh(options.out / (mirrored.clip_id + ".bvh"));
   ASSERT_TRUE(plain && other);

@@ -112,14 +112,12 @@ TEST(PrintExport, WritesJson) {
   const auto json = nlohmann::json::parse(text);
   EXPECT_EQ(json["clips"], 6);
   EXPECT_EQ(json["left_out"][0]["name"], "stiff");
-  EXPECT_EQ(json["labels_without_other_side"][0]["word"], "leftish");
+  EXPECT_EQ(json["labels_without_other_side"][0]["label"], "a \"leftish\", step");
   EXPECT_EQ(json["licences"][0]["licence"], "CC-BY-4.0");
   EXPECT_NE(messages.find("1 of 4 selected clips cannot be exported; the first, stiff"),
             std::string::npos)
       << messages;
-  EXPECT_NE(messages.find("the other side of \"leftish\" is not known"),
-            std::string::npos)
-      << messages;
+  EXPECT_NE(messages.find("its other side is not known"), std::string::npos) << messages;
 }
 
 }  // namespace
