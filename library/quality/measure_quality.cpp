@@ -29,7 +29,8 @@ std::string joint_name(const std::optional<HumanBone>& bone) {
 /// Turns found figures into verdicts and problems.
 class Judge {
  public:
-  explicit Judge(const QualityLimits& limits) : limits_(limits) {}
+  Judge(const QualityLimits& limits, int count)
+      : limits_(limits), all_frames_{0, std::max(0, count - 1)} {}
 
   template <class Figures>
   void add(const Figures& figures) {
@@ -64,9 +65,15 @@ class Judge {
     for (const FoundPlace& place : figure.places) {
       out_.problems.push_back({place.frames, kind, joint_name(place.bone), place.value});
     }
+    if (!figure.places.empty() || !limits_[figure.name].is_outside) return;
+    out_.problems.push_back({figure.frames.value_or(all_frames_),
+                             kind,
+                             joint_name(figure.bone),
+                             figure.value});
   }
 
   const QualityLimits& limits_;
+  FrameRange all_frames_;
   QualityResult out_;
 };
 
@@ -74,12 +81,17 @@ class Judge {
 
 QualityResult measure_quality(const LibraryMotion& clip,
                               const retarget::BodyMap& map,
-                              std::span<const QualityLimit> own_limits) {
+                              std::span<const QualityLimit> own_limits,
+                              std::span<const FoundFigure> outside) {
   MAREY_ASSERT(clip.motion.rate.hz > 0.0);
   MAREY_ASSERT(clip.contacts.empty() || clip.contacts.size() == clip.motion.poses.size());
   const QualityLimits limits(own_limits);
   const QualityFrames frames = quality_frames(clip.motion, map);
-  Judge judge(limits);
+  Judge judge(limits, frames.count);
+  for (const FoundFigure& figure : outside) {
+    MAREY_ASSERT(limits[figure.name].is_outside);
+  }
+  judge.add(outside);
   judge.add(check_body(frames, map, limits));
   judge.add(find_exchanged_limbs(frames, limits));
   judge.add(measure_flight_rate(frames, limits));
