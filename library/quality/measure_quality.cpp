@@ -3,6 +3,7 @@
 #include "library/quality/measure_quality.h"
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 
 #include "library/quality/activity.h"
@@ -12,6 +13,7 @@
 #include "library/quality/explain_problems.h"
 #include "library/quality/feet_on_floor.h"
 #include "library/quality/flight_rate.h"
+#include "library/quality/floor_tilt.h"
 #include "library/quality/joint_certainty.h"
 #include "library/quality/quality_frames.h"
 #include "library/quality/quality_limits.h"
@@ -98,6 +100,7 @@ QualityResult measure_quality(const LibraryMotion& clip,
   judge.add(find_rotation_faults(frames, clip.motion, limits));
   judge.add(find_discontinuities(frames, limits));
   judge.add(measure_feet_on_floor(frames, clip.contacts, limits));
+  judge.add(std::array{measure_tilt(frames, clip.contacts, limits)});
   judge.add(measure_certainty(clip, map, limits));
   judge.add(measure_activity(frames, map));
   return std::move(judge).result();
