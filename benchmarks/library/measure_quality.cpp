@@ -181,11 +181,11 @@ MeasuredClip measure_clip(const fs::path& file, const Changes& changes) {
     std::fprintf(stderr, "%s: %s\n", file.c_str(), map.error().message().c_str());
     return out;
   }
-  put_on_floor(motion, *map);
   if (!change(changes, motion)) return out;
-  const auto clean = library::make_library_motion(motion);
+  auto clean = library::make_library_motion(motion);
   if (!clean) return out;
   map = retarget::map_body(clean->motion.skeleton);
+  put_on_floor(clean->motion, *map);
   const double begin_s = thread_time_s();
   out.clean.result = library::measure_quality(*clean, *map, {});
   out.seconds = thread_time_s() - begin_s;

@@ -17,7 +17,9 @@ constexpr int kAround = 8;
 constexpr int kSpikeReach = 4;  ///< A displaced position changes this many differences.
 constexpr double kSpikeScale_m = 0.016;
 constexpr double kMinSpikeScale_m = 0.004;
-constexpr double kSpikeScaleRate_hz = 30.0;
+constexpr double kSpikeAround = 0.5;
+constexpr double kMaxSpikeAround = 1.5;
+constexpr double kSpikeRate_hz = 30.0;
 constexpr int kCutReach = 2;
 constexpr double kCutScale_m = 0.0006;
 constexpr double kCutQuantile = 0.93;
@@ -61,19 +63,32 @@ void measure_eighth(std::span<const glm::dvec3> x, std::span<double> e_m) {
   }
 }
 
+/// Denominator of a spike's score: scale + around * the median around it.
+struct SpikeScale {
+  double scale_m = kSpikeScale_m;
+  double around = kSpikeAround;
+};
+
+SpikeScale spike_scale(double hz) {
+  // At higher rates smooth motion has smaller differences, but noise has the same.
+  const double ratio = std::max(1.0, hz / kSpikeRate_hz);
+  return {std::max(kMinSpikeScale_m, kSpikeScale_m / ratio),
+          std::min(kMaxSpikeAround, kSpikeAround * ratio)};
+}
+
 void find_spikes(std::span<const double> eighth_m,
                  HumanBone bone,
-                 double scale_m,
+                 const SpikeScale& scale,
                  double warn,
                  FoundFigure& out) {
   const int last = static_cast<int>(eighth_m.size()) - 1 - kSpikeReach;
   for (int t = kSpikeReach; t <= last; ++t) {
     const double e_m = eighth_m[static_cast<std::size_t>(t)] / 70.0;
     // The score is at most this: most frames need no median.
-    if (e_m / scale_m <= std::min(out.value, warn)) continue;
+    if (e_m / scale.scale_m <= std::min(out.value, warn)) continue;
     const double around_m =
         quantile_around(eighth_m, t, kSpikeReach, kSpikeReach, last, 0.5) / 70.0;
-    const double score = e_m / (scale_m + 0.5 * around_m);
+    const double score = e_m / (scale.scale_m + scale.around * around_m);
     if (score > out.value) {
       out.value = score;
       out.bone = bone;
@@ -205,9 +220,7 @@ std::array<FoundFigure, 3> find_discontinuities(const QualityFrames& frames,
   if (frames.count < kMinFrames) {
     return {spike, FoundFigure{"jitter_mm"}, FoundFigure{"cut"}};
   }
-  const double scale_m =
-      std::max(kMinSpikeScale_m,
-               kSpikeScale_m * std::min(1.0, kSpikeScaleRate_hz / frames.hz));
+  const SpikeScale scale = spike_scale(frames.hz);
   const int window = std::max(4, static_cast<int>(std::lround(0.4 * frames.hz)));
   std::vector<double> e_m(static_cast<std::size_t>(frames.count), 0.0);
   std::vector<glm::dvec3> local(e_m.size());
@@ -221,7 +234,7 @@ std::array<FoundFigure, 3> find_discontinuities(const QualityFrames& frames,
     const auto bone = static_cast<HumanBone>(b);
     if (frames.bones[b].empty()) continue;
     measure_eighth(frames.bones[b].p_in_world, e_m);
-    find_spikes(e_m, bone, scale_m, limits["spike"].warn, spike);
+    find_spikes(e_m, bone, scale, limits["spike"].warn, spike);
     world_m[worlds++] = quiet_jitter_m(e_m, window, medians);
     const auto joint = present_above(frames, bone);
     const auto above = joint ? present_above(frames, *joint) : std::nullopt;

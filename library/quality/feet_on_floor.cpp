@@ -13,6 +13,7 @@ namespace marey::library {
 namespace {
 
 constexpr double kLow_m = 0.02;
+constexpr double kStep_s = 1.0 / 60.0;
 
 glm::dvec2 level(const glm::dvec3& p) {
   return {p.x, p.z};
@@ -31,14 +32,18 @@ FoundFigure measure_slide(const QualityFrames& frames, double warn) {
   constexpr double kNone = std::numeric_limits<double>::max();
   std::vector<double> slower(count, kNone);
   scratch.clear();
-  for (std::size_t t = 1; t + 1 < count; ++t) {
+  const auto reach = static_cast<std::size_t>(
+      std::max(1L, std::lround(kStep_s * frames.hz)));
+  for (std::size_t t = reach; t + reach < count; ++t) {
     for (std::size_t s = 0; s < 2; ++s) {
       const auto& ball = frames.ball_in_world[s];
       if (ball[t].y > low_m[s]) continue;
       // The smaller step: a stance of a run at 30 Hz has few still frames.
-      const double step_m = std::min(glm::distance(level(ball[t + 1]), level(ball[t])),
-                                     glm::distance(level(ball[t]), level(ball[t - 1])));
-      slower[t] = std::min(slower[t], 100.0 * frames.hz * step_m);
+      const double step_m =
+          std::min(glm::distance(level(ball[t + reach]), level(ball[t])),
+                   glm::distance(level(ball[t]), level(ball[t - reach])));
+      slower[t] = std::min(
+          slower[t], 100.0 * frames.hz * step_m / static_cast<double>(reach));
     }
     if (slower[t] < kNone) scratch.push_back(slower[t]);
   }

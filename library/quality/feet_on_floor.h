@@ -14,8 +14,8 @@ namespace marey::library {
 /// and "sink_mm".
 ///
 /// - slide_cm_s: a ball is low within 2 cm of the 5 % quantile of its heights. The
-///   25 % quantile, over frames with a low ball, of the level speed of the slower one.
-///   [cm/s]
+///   25 % quantile, over frames with a low ball, of the level speed of the slower one, in
+///   steps of 1/60 s or one frame. [cm/s]
 /// - drift_mm: maximum level distance of a heel or ball from its place at the start of
 ///   its contact. [mm]
 /// - float_mm: 5 % quantile of the height of the lower sole in frames with a contact; 0

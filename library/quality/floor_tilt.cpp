@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kHeightError_m = 0.0006;
 constexpr double kSlow_legs_s = 0.3;
+constexpr double kMinSlow_s = 1.0 / 30.0;
 constexpr double kStepError = 0.5;
 constexpr double kSideError_m = 0.0001;
 constexpr double kSideErrors = 0.5;
@@ -47,6 +48,7 @@ struct StillPlace {
 std::vector<StillPlace> still_places(const QualityFrames& frames) {
   std::vector<StillPlace> out;
   const double max_step_m = kSlow_legs_s * frames.leg_m / frames.hz;
+  const double min_steps = std::max(1.0, std::round(kMinSlow_s * frames.hz));
   for (int part = 0; part < 4; ++part) {
     const std::vector<glm::dvec3>& path =
         part % 2 == 0 ? frames[foot_of(part / 2)].p_in_world
@@ -62,9 +64,9 @@ std::vector<StillPlace> still_places(const QualityFrames& frames) {
         way_m += step_m;
         count += 1.0;
       }
-      if (count < 1.0) continue;
+      if (count < min_steps) continue;
       place.mean /= count;
-      place.moved_m = kStepError * way_m / count;
+      place.moved_m = kStepError * way_m / count * min_steps;
       out.push_back(place);
     }
   }
