@@ -100,6 +100,15 @@ double still_share(const QualityFrames& frames) {
   return static_cast<double>(still) / (frames.count - 1);
 }
 
+double mean_speed_m_s(const QualityFrames& frames) {
+  const auto& hips = frames[B::kHips].p_in_world;
+  double way_m = 0.0;
+  for (std::size_t t = 1; t < hips.size(); ++t) {
+    way_m += std::hypot(hips[t].x - hips[t - 1].x, hips[t].z - hips[t - 1].z);
+  }
+  return frames.count > 1 ? way_m * frames.hz / (frames.count - 1) : 0.0;
+}
+
 double t_pose_share(const QualityFrames& frames, const retarget::BodyMap& map) {
   const std::vector<char> in_t_pose = t_pose_frames(frames, map);
   const auto count = std::count(in_t_pose.begin(), in_t_pose.end(), 1);
@@ -129,13 +138,18 @@ std::vector<char> t_pose_frames(const QualityFrames& frames,
   return out;
 }
 
-std::array<FoundFigure, 3> measure_activity(const QualityFrames& frames,
+std::array<FoundFigure, 5> measure_activity(const QualityFrames& frames,
                                             const retarget::BodyMap& map) {
-  std::array<FoundFigure, 3> out{
-      FoundFigure{"sparc"}, FoundFigure{"still_share"}, FoundFigure{"tpose_share"}};
+  std::array<FoundFigure, 5> out{FoundFigure{"sparc"},
+                                 FoundFigure{"still_share"},
+                                 FoundFigure{"tpose_share"},
+                                 FoundFigure{"seconds"},
+                                 FoundFigure{"speed_m_s"}};
   out[0].value = mean_sparc(frames);
   out[1].value = still_share(frames);
   out[2].value = t_pose_share(frames, map);
+  out[3].value = std::max(0, frames.count - 1) / frames.hz;
+  out[4].value = mean_speed_m_s(frames);
   return out;
 }
 

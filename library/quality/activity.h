@@ -15,8 +15,8 @@ namespace marey::library {
 [[nodiscard]] std::vector<char> t_pose_frames(const QualityFrames& frames,
                                               const retarget::BodyMap& map);
 
-/// Measures the activity of a motion; no verdict follows from it: "sparc",
-/// "still_share" and "tpose_share".
+/// Measures the activity of a motion; no verdict follows from it: "seconds",
+/// "sparc", "speed_m_s", "still_share" and "tpose_share".
 ///
 /// - sparc: spectral arc length of the speed of hips and hands, smooth motion is near 0:
 ///   minus the integral over [0, f_c] of sqrt((1 / f_c)^2 + (dV/df)^2), V the amplitude
@@ -24,11 +24,13 @@ namespace marey::library {
 ///   0.05 or more. Mean over windows of 4 s and the three joints. (Balasubramanian,
 ///   Melendez-Calderon, Roby-Brami, Burdet 2015, "On the analysis of movement
 ///   smoothness".)
+/// - seconds: from the first frame to the last one. [s]
+/// - speed_m_s: mean level speed of the hips. [m/s]
 /// - still_share: share of frames in which every joint is slower than 5 cm/s.
 /// - tpose_share: share of frames of t_pose_frames().
 ///
 /// Linear in frames.
-[[nodiscard]] std::array<FoundFigure, 3> measure_activity(const QualityFrames& frames,
+[[nodiscard]] std::array<FoundFigure, 5> measure_activity(const QualityFrames& frames,
                                                           const retarget::BodyMap& map);
 
 }  // namespace marey::library

@@ -23,6 +23,35 @@ constexpr double kMeanStature_m = 1.63;
 constexpr double kStatureSigma = 0.10;
 constexpr double kRatioSigma = 0.15;
 
+double stature_m(const retarget::BodyMap& map) {
+  const Proportions average = average_proportions(1.0);
+  return map.leg_length_m / (glm::length(average[B::kLeftLowerLeg]) +
+                             glm::length(average[B::kLeftFoot]));
+}
+
+double proportions(const QualityFrames& frames, const retarget::BodyMap& map) {
+  const BonePath& left = frames[B::kLeftUpperLeg];
+  const BonePath& right = frames[B::kRightUpperLeg];
+  if (!map.limbs[0] || !map.limbs[1] || !map.spine || left.empty() || right.empty()) {
+    return 0.0;
+  }
+  const std::array length_m{
+      map.leg(0).upper_length_m + map.leg(1).upper_length_m,
+      map.leg(0).lower_length_m + map.leg(1).lower_length_m,
+      map.limbs[0]->upper_length_m + map.limbs[1]->upper_length_m,
+      map.limbs[0]->lower_length_m + map.limbs[1]->lower_length_m,
+      map.spine->length_m,
+      glm::distance(left.p_in_world[0], right.p_in_world[0])};
+  // Two persons have the same sum by chance only.
+  constexpr std::array kWeights{1.0, -1.7, 2.3, -2.9, 3.1, -1.8};
+  double sum = 0.0;
+  for (std::size_t k = 0; k < length_m.size(); ++k) {
+    if (length_m[k] <= 0.0) return 0.0;
+    sum += kWeights[k] * std::log(length_m[k]);
+  }
+  return sum;
+}
+
 FoundFigure check_scale(const retarget::BodyMap& map, int count, double warn) {
   FoundFigure out{"scale_sigma"};
   const Proportions average = average_proportions(1.0);
@@ -35,7 +64,7 @@ FoundFigure check_scale(const retarget::BodyMap& map, int count, double warn) {
   };
   const double leg = length(B::kLeftLowerLeg) + length(B::kLeftFoot);
   const double arm = length(B::kLeftLowerArm) + length(B::kLeftHand);
-  compare(map.leg_length_m / leg / kMeanStature_m, kStatureSigma, std::nullopt);
+  compare(stature_m(map) / kMeanStature_m, kStatureSigma, std::nullopt);
   for (int side = 0; side < 2; ++side) {
     const auto& a = map.limbs[static_cast<std::size_t>(side)];
     const retarget::LimbMap& l = map.leg(side);
@@ -141,12 +170,14 @@ FoundFigure check_self(const QualityFrames& frames, double warn_mm) {
 
 }  // namespace
 
-std::array<FoundFigure, 3> check_body(const QualityFrames& frames,
+std::array<FoundFigure, 5> check_body(const QualityFrames& frames,
                                       const retarget::BodyMap& map,
                                       const QualityLimits& limits) {
   return {check_scale(map, frames.count, limits["scale_sigma"].warn),
           check_limits(frames, limits["limits_deg"].warn),
-          check_self(frames, limits["self_mm"].warn)};
+          check_self(frames, limits["self_mm"].warn),
+          FoundFigure{"stature_m", stature_m(map)},
+          FoundFigure{"proportions", proportions(frames, map)}};
 }
 
 }  // namespace marey::library

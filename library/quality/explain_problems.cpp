@@ -27,10 +27,10 @@ constexpr std::array kCauses{
     Cause{"rate", true, " spike jitter slide flip cut "},
     Cause{"swap", false, " flip cut frozen spike slide limits self sink float "},
     Cause{"flip", false, " cut spike limits self "},
-    Cause{"cut", false, " spike slide frozen "},
     Cause{"frozen", false, " spike cut slide limits self "},
+    Cause{"cut", false, " spike slide "},
     Cause{"spike", false, " slide limits self sink "},
-    Cause{"jitter", true, " slide spike sink "},
+    Cause{"jitter", true, " slide sink "},
     Cause{"tilt", true, " float sink slide "},
     Cause{"float", true, " sink "},
 };

@@ -10,29 +10,20 @@
 
 namespace marey::library {
 
-/// Measures how feet stand on the floor Y = 0: "slide_cm_s", "drift_mm", "float_mm",
-/// "sink_mm" and "tilt_deg".
+/// Measures how feet stand on the floor Y = 0: "slide_cm_s", "drift_mm", "float_mm"
+/// and "sink_mm".
 ///
 /// - slide_cm_s: a ball is low within 2 cm of the 5 % quantile of its heights. The
-///   25 % quantile, over frames with a low ball, of the level speed of the slower one.
-///   [cm/s]
+///   25 % quantile, over frames with a low ball, of the level speed of the slower one, in
+///   steps of 1/60 s or one frame. [cm/s]
 /// - drift_mm: maximum level distance of a heel or ball from its place at the start of
-/// its
-///   contact. [mm]
+///   its contact. [mm]
 /// - float_mm: 5 % quantile of the height of the lower sole in frames with a contact; 0
-/// if
-///   it is below the floor. [mm]
+///   if it is below the floor. [mm]
 /// - sink_mm: 1 % quantile of the height of the lower sole below the floor. [mm]
-/// - tilt_deg: slope of the plane through the places of contacts, with own heights for
-///   heels and balls, along the two directions of their extent; each less three
-///   standard errors with an error of 0.6 mm or more in each place. The places are those
-///   at which a heel or a ball is slower than 0.15 legs/s for 0.1 s, at any height. The
-///   lean of a standing body replaces it if it is larger. Soles and centre of mass must
-///   lean the same way, and the smaller angle counts. The lean to a side of a straight
-///   gait, less 1 degree, replaces it, too. [deg]
 ///
 /// Linear in frames. Precondition: no contacts, or one entry per frame.
-[[nodiscard]] std::array<FoundFigure, 5> measure_feet_on_floor(
+[[nodiscard]] std::array<FoundFigure, 4> measure_feet_on_floor(
     const QualityFrames& frames,
     const std::vector<FootParts>& contacts,
     const QualityLimits& limits);

@@ -3,6 +3,7 @@
 #include "library/quality/measure_quality.h"
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 
 #include "library/quality/activity.h"
@@ -12,6 +13,7 @@
 #include "library/quality/explain_problems.h"
 #include "library/quality/feet_on_floor.h"
 #include "library/quality/flight_rate.h"
+#include "library/quality/floor_tilt.h"
 #include "library/quality/joint_certainty.h"
 #include "library/quality/quality_frames.h"
 #include "library/quality/quality_limits.h"
@@ -29,7 +31,8 @@ std::string joint_name(const std::optional<HumanBone>& bone) {
 /// Turns found figures into verdicts and problems.
 class Judge {
  public:
-  explicit Judge(const QualityLimits& limits) : limits_(limits) {}
+  Judge(const QualityLimits& limits, int count)
+      : limits_(limits), all_frames_{0, std::max(0, count - 1)} {}
 
   template <class Figures>
   void add(const Figures& figures) {
@@ -64,9 +67,15 @@ class Judge {
     for (const FoundPlace& place : figure.places) {
       out_.problems.push_back({place.frames, kind, joint_name(place.bone), place.value});
     }
+    if (!figure.places.empty() || !limits_[figure.name].is_outside) return;
+    out_.problems.push_back({figure.frames.value_or(all_frames_),
+                             kind,
+                             joint_name(figure.bone),
+                             figure.value});
   }
 
   const QualityLimits& limits_;
+  FrameRange all_frames_;
   QualityResult out_;
 };
 
@@ -74,18 +83,24 @@ class Judge {
 
 QualityResult measure_quality(const LibraryMotion& clip,
                               const retarget::BodyMap& map,
-                              std::span<const QualityLimit> own_limits) {
+                              std::span<const QualityLimit> own_limits,
+                              std::span<const FoundFigure> outside) {
   MAREY_ASSERT(clip.motion.rate.hz > 0.0);
   MAREY_ASSERT(clip.contacts.empty() || clip.contacts.size() == clip.motion.poses.size());
   const QualityLimits limits(own_limits);
   const QualityFrames frames = quality_frames(clip.motion, map);
-  Judge judge(limits);
+  Judge judge(limits, frames.count);
+  for (const FoundFigure& figure : outside) {
+    MAREY_ASSERT(limits[figure.name].is_outside);
+  }
+  judge.add(outside);
   judge.add(check_body(frames, map, limits));
   judge.add(find_exchanged_limbs(frames, limits));
   judge.add(measure_flight_rate(frames, limits));
   judge.add(find_rotation_faults(frames, clip.motion, limits));
   judge.add(find_discontinuities(frames, limits));
   judge.add(measure_feet_on_floor(frames, clip.contacts, limits));
+  judge.add(std::array{measure_tilt(frames, clip.contacts, limits)});
   judge.add(measure_certainty(clip, map, limits));
   judge.add(measure_activity(frames, map));
   return std::move(judge).result();

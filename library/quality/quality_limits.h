@@ -17,6 +17,9 @@ struct FigureRule {
   std::string_view kind;    ///< ClipProblem::kind of its problems.
   double warn = 0.0;        ///< Above this value a warning,
   double fail = 0.0;        ///< and above this one a failure. Both 0: only reported.
+  /// Not measured from the motion: whoever reads or solves it passes the figure to
+  /// measure_quality(), and a clip without it has none.
+  bool is_outside = false;
 
   [[nodiscard]] bool has_verdict() const { return fail > 0.0; }
 };

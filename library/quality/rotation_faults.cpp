@@ -36,8 +36,10 @@ FoundFigure find_frozen(const QualityFrames& frames, double warn_s) {
   }
   for (std::size_t b = 0; b < kHumanBoneCount; ++b) {
     const BonePath& bone = frames.bones[b];
-    if (bone.empty() || !is_animated(bone)) continue;
     const auto whole = static_cast<HumanBone>(b);
+    // Solvers keep the toes of a standing foot flat.
+    const bool is_toes = whole == HumanBone::kLeftToes || whole == HumanBone::kRightToes;
+    if (bone.empty() || is_toes || !is_animated(bone)) continue;
     int first = 1;
     for (int t = 1; t <= frames.count; ++t) {
       const auto i = static_cast<std::size_t>(t);

@@ -15,7 +15,7 @@ namespace marey::library {
 /// - frozen_s: longest run in which the rotation of a joint in its parent changes by less
 ///   than 1e-6 rad per frame, while at least three other joints turn by more than
 ///   1 deg/s. Joints that rest in more than half of the motion are not animated, and are
-///   left out. [s]
+///   left out; and so are toes, which many solvers keep flat. [s]
 /// - flip_count: turns of a joint in its parent of more than 1500 deg/s and 40 degrees in
 ///   one frame, which a second such turn within 0.2 s (at least five frames) takes back
 ///   to within 40 % of the angle.
