@@ -54,10 +54,6 @@ bool contains(const List& list, std::string_view word) {
   return std::ranges::find(list, word) != std::ranges::end(list);
 }
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 /// Reads "cc-by-nc-sa-4.0", "cc-by-3.0-us". nullopt: none of this family.
 std::optional<LicenceTerms> creative_commons(std::string_view id) {
   if (!id.starts_with("cc-by")) return std::nullopt;
@@ -73,7 +69,7 @@ std::optional<LicenceTerms> creative_commons(std::string_view id) {
   terms.needs_same_licence = terms.allows_changes && take("-sa");
   // SPDX writes both orders: "cc-by-nd-nc-1.0".
   if (take("-nc")) terms.allows_commercial_use = false;
-  if (id.size() < 4 || id[0] != '-' || !is_digit(id[1])) return std::nullopt;
+  if (id.size() < 4 || id[0] != '-' || !is_ascii_digit(id[1])) return std::nullopt;
   return terms;
 }
 
@@ -168,7 +164,7 @@ class LicenceParser {
     const std::string lower = lower_case(word);
     if (word.empty() || lower == "and" || lower == "or" || lower == "with") return false;
     return std::ranges::all_of(lower, [](char c) {
-      return is_digit(c) || (c >= 'a' && c <= 'z') || c == '-' || c == '.' || c == '+' ||
+      return is_ascii_digit(c) || (c >= 'a' && c <= 'z') || c == '-' || c == '.' || c == '+' ||
              c == ':';
     });
   }

@@ -33,6 +33,10 @@ struct StatedRate {
   FoundFigure figure{"rate_stated_ratio"};
 };
 
+/// Returns true if the duration of a table is that of the file's own frames and rate,
+/// within 2 % or two frames.
+[[nodiscard]] bool is_resampled_copy(const RateWitnesses& witnesses);
+
 /// Chooses the rate: that of the option, else the table's, else the file's. A file is not
 /// contradicted by a table whose duration is that of the file's own frames and rate,
 /// within 2 % or two frames: such a file is a resampled copy, and its rate is in use.

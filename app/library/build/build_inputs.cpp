@@ -137,7 +137,11 @@ SourceKeys keys_of(const BuildInputs& inputs,
   reading += " clean " + std::to_string(static_cast<int>(settings.clean));
   if (source.rate_hz) reading += " option " + exact_text(*source.rate_hz);
   const auto entry = inputs.find_in_table(file);
-  if (entry && entry->rate_hz) reading += " table " + exact_text(*entry->rate_hz);
+  if (entry && entry->rate_hz) {
+    reading += " table " + exact_text(*entry->rate_hz);
+    if (entry->duration_s) reading += " of " + exact_text(*entry->duration_s) + " s";
+    reading += " " + entry->evidence;
+  }
   std::string clips = "segment " + std::to_string(static_cast<int>(settings.segment));
   if (settings.segment == SegmentBy::kLabels) clips += " " + inputs.labels_digest;
   for (const QualityLimit& limit : settings.limits) {

@@ -119,8 +119,11 @@ Result<SourceStage> make_stage(const BuildInputs& inputs,
                                const std::string& motion_key) {
   ReadSourceOptions options;
   options.clean = inputs.settings.clean;
-  if (const auto entry = inputs.find_in_table(file))
+  if (const auto entry = inputs.find_in_table(file)) {
     options.table_rate_hz = entry->rate_hz;
+    options.table_duration_s = entry->duration_s;
+    options.table_evidence = entry->evidence;
+  }
   auto motions = read_source(file, inputs.settings.sources[file.source], options);
   if (!motions) return without_path(motions.error(), file);
   SourceStage stage;

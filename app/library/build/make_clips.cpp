@@ -12,7 +12,9 @@
 #include "library/features/body_features.h"
 #include "library/features/feature_span.h"
 #include "library/labels/found_labels.h"
+#include "library/quality/found_figure.h"
 #include "library/quality/measure_quality.h"
+#include "library/quality/quality_limits.h"
 #include "library/segments/find_segments.h"
 #include "library/segments/trim_idle.h"
 
@@ -27,9 +29,28 @@
 namespace marey::app {
 namespace {
 
+/// Returns the figures of a source that the quality gate judges.
+std::vector<library::FoundFigure> outside_figures(const ClipRecord& body) {
+  std::vector<library::FoundFigure> out;
+  for (const library::FigureRule& rule : library::figure_rules()) {
+    const auto found = std::ranges::find(body.figures, rule.figure, &ClipFigure::name);
+    if (!rule.is_outside || found == body.figures.end()) continue;
+    library::FoundFigure figure;
+    figure.name = rule.figure;
+    figure.value = found->value;
+    out.push_back(std::move(figure));
+  }
+  return out;
+}
+
 /// Adds the figures, labels and events that only the source has.
 void add_source_values(const ClipRecord& body, const FrameRange& poses, ClipRecord& out) {
-  out.figures.insert(out.figures.end(), body.figures.begin(), body.figures.end());
+  for (const ClipFigure& figure : body.figures) {
+    const bool is_judged =
+        std::ranges::find(out.figures, figure.name, &ClipFigure::name) !=
+        out.figures.end();
+    if (!is_judged) out.figures.push_back(figure);
+  }
   const double start_s = poses.first / out.rate_hz;
   const double end_s = poses.last / out.rate_hz;
   for (ClipLabel label : body.labels) {
@@ -144,7 +165,7 @@ ClipRecord record_of(const BuildInputs& inputs,
   out.provenance.source_id = source_id;
   out.provenance.subject = body.provenance.subject;
   library::QualityResult quality =
-      library::measure_quality(part, map, inputs.settings.limits);
+      library::measure_quality(part, map, inputs.settings.limits, outside_figures(body));
   out.figures = std::move(quality.figures);
   out.problems = std::move(quality.problems);
   out.quality = quality.quality;

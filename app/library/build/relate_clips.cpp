@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/library/build/relate_clips.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <thread>
 
 #include "library/duplicates/find_duplicates.h"
 #include "library/export/split_clips.h"
 #include "library/features/body_features.h"
+#include "library/quality/contradicted_sizes.h"
 #include "library/search/clip_rows.h"
 
 #include "app/library/labels/apply_labels.h"
@@ -57,6 +60,22 @@ Status add_duplicates(const BuildInputs& inputs,
   return Done{};
 }
 
+/// Marks clips whose body has another size than in the other clips of its person.
+void add_sizes(std::vector<ClipRecord>& records) {
+  std::vector<library::ClipBody> bodies;
+  bodies.reserve(records.size());
+  for (const ClipRecord& record : records) bodies.push_back(library::body_of(record));
+  for (const library::ContradictedSize& size : library::find_contradicted_sizes(bodies)) {
+    ClipRecord& record = records[size.clip];
+    record.problems.insert(record.problems.begin(),
+                           library::problem_of(size, record.frame_count()));
+    record.figures.push_back(
+        {"size_ratio", size.ratio, Verdict::kWarn, "", std::nullopt});
+    std::ranges::sort(record.figures, {}, &ClipFigure::name);
+    record.quality = std::max(record.quality, Verdict::kWarn);
+  }
+}
+
 void add_splits(const BuildInputs& inputs, std::vector<ClipRecord>& records) {
   const auto splits =
       library::split_clips(records, inputs.settings.splits, library::SplitBy::kSubject);
@@ -69,6 +88,7 @@ Status relate_clips(const BuildInputs& inputs,
                     const std::string& search,
                     std::vector<ClipRecord>& records,
                     std::vector<std::string>& remarks) {
+  add_sizes(records);  // Before the corrections of people, which it must not undo.
   const Status labelled = add_people_labels(inputs, records, remarks);
   if (!labelled) return labelled;
   if (const Status ok = add_duplicates(inputs, search, records); !ok) return ok;

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "app/library/sources/index_columns.h"
 #include "app/library/sources/source_kind.h"
 #include "core/base/in_quotes.h"
 #include "core/base/lower_case.h"
@@ -20,56 +21,9 @@
 namespace marey::app {
 namespace {
 
-enum class IndexColumn { kFile, kSubject, kTrial, kRate, kDescription, kLabels };
-
-/// Words of columns, in lower case without blanks and punctuation.
-constexpr std::array<std::pair<std::string_view, IndexColumn>, 22> kColumnWords{{
-    {"file", IndexColumn::kFile},
-    {"filename", IndexColumn::kFile},
-    {"name", IndexColumn::kFile},
-    {"clip", IndexColumn::kFile},
-    {"path", IndexColumn::kFile},
-    {"subject", IndexColumn::kSubject},
-    {"actor", IndexColumn::kSubject},
-    {"performer", IndexColumn::kSubject},
-    {"person", IndexColumn::kSubject},
-    {"trial", IndexColumn::kTrial},
-    {"take", IndexColumn::kTrial},
-    {"ratehz", IndexColumn::kRate},
-    {"rate", IndexColumn::kRate},
-    {"fps", IndexColumn::kRate},
-    {"hz", IndexColumn::kRate},
-    {"framerate", IndexColumn::kRate},
-    {"frameratehz", IndexColumn::kRate},
-    {"description", IndexColumn::kDescription},
-    {"motiondescription", IndexColumn::kDescription},
-    {"motion", IndexColumn::kDescription},
-    {"labels", IndexColumn::kLabels},
-    {"label", IndexColumn::kLabels},
-}};
-
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
-std::optional<IndexColumn> column_of(std::string_view header) {
-  std::string word;
-  for (const char c : header) {
-    if (is_letter(c) || is_digit(c)) word += lower_case(c);
-  }
-  for (const auto& [known, column] : kColumnWords) {
-    if (known == word) return column;
-  }
-  return std::nullopt;
-}
-
 /// Returns the text without leading zeros, if it is a number; else the text.
 std::string without_zeros(std::string_view text) {
-  if (!std::ranges::all_of(text, is_digit)) return std::string(text);
+  if (!std::ranges::all_of(text, is_ascii_digit)) return std::string(text);
   const std::size_t first = text.find_first_not_of('0');
   return first == std::string_view::npos ? "0" : std::string(text.substr(first));
 }
@@ -116,7 +70,7 @@ std::set<std::string> long_words(std::string_view text) {
     word.clear();
   };
   for (const char c : text) {
-    if (is_letter(c)) {
+    if (is_ascii_letter(c)) {
       word += lower_case(c);
     } else {
       end_word();
@@ -248,6 +202,19 @@ class IndexReader {
     return Done{};
   }
 
+  /// A duration that is no number is left out: it only helps to choose a rate.
+  void read_duration(IndexEntry& entry) const {
+    const std::string text = cell(IndexColumn::kDuration);
+    double value = 0.0;
+    const char* end = text.data() + text.size();
+    const auto [stop, problem] = std::from_chars(text.data(), end, value);
+    if (problem != std::errc{} || stop != end || !(value > 0.0)) return;
+    const auto column = std::ranges::find(columns_, IndexColumn::kDuration);
+    const double hz =
+        counted_rate_hz(headers_[static_cast<std::size_t>(column - columns_.begin())]);
+    entry.duration_s = hz > 0.0 ? value / hz : value;
+  }
+
   Status read_row(std::string_view line) {
     if (const Status ok = split(line); !ok) return ok;
     while (cells_.size() > columns_.size() && cells_.back().empty()) cells_.pop_back();
@@ -264,6 +231,7 @@ class IndexReader {
     entry.description = cell(IndexColumn::kDescription);
     entry.subject = cell(IndexColumn::kSubject);
     read_labels(entry);
+    read_duration(entry);
     if (const Status ok = read_rate(entry); !ok) return ok;
     return add(std::move(entry));
   }

@@ -22,7 +22,8 @@ struct IndexEntry {
   std::string description;
   std::vector<std::string> labels;
   std::string subject;
-  int line = 0;  ///< In the table; 0: several lines agree.
+  std::optional<double> duration_s;  ///< Of the original recording.
+  int line = 0;                      ///< In the table; 0: several lines agree.
   /// Evidence for the rate, for remarks: "line 3 of data.csv", or "78 lines of data.csv
   /// with \"salsa\"".
   std::string evidence;
@@ -32,7 +33,8 @@ struct IndexEntry {
 ///
 /// The first line names the columns: file (or name, clip, path), or subject and trial;
 /// rate_hz (rate, fps, framerate); description (motion description); labels, separated by
-/// ';'; subject (actor, performer). Case, blanks and punctuation of names do not matter;
+/// ';'; subject (actor, performer); duration (seconds), or frames counted at a rate
+/// ("Frames 60fps"). Case, blanks and punctuation of names do not matter;
 /// other columns are ignored. Cells are separated by commas, semicolons or tabs, and may
 /// be in double quotes, with "" for a quote.
 class IndexTable {

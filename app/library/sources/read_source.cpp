@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "library/quality/rate_witnesses.h"
+
 #include "app/library/sources/clean_motion.h"
 #include "app/library/sources/marker_source.h"
 #include "app/library/sources/recipe_source.h"
@@ -118,13 +120,21 @@ void remove_paths(const SourceFile& file, std::vector<std::string>& remarks) {
   }
 }
 
-/// Sets the rate that counts, and adds a problem where stated rates differ.
+/// Sets the rate that counts, and adds a remark and a figure on rates that differ.
 void set_rate(const LibrarySource& source,
               const ReadSourceOptions& options,
               SourceMotion& out) {
   out.rates.option_hz = source.rate_hz;
-  out.rates.table_hz = options.table_rate_hz;
-  out.rates.table_evidence = options.table_evidence;
+  library::RateWitnesses witnesses;
+  if (!out.rates.file_is_guessed) witnesses.file_hz = out.rates.file_hz;
+  witnesses.table_hz = options.table_rate_hz;
+  witnesses.option_hz = source.rate_hz;
+  witnesses.table_duration_s = options.table_duration_s;
+  witnesses.frames = static_cast<int>(out.motion.poses.size());
+  if (!library::is_resampled_copy(witnesses)) {
+    out.rates.table_hz = options.table_rate_hz;
+    out.rates.table_evidence = options.table_evidence;
+  }
   out.motion.rate.hz = out.rates.used_hz();
   // Times in the source count by its own rate.
   const double longer = out.rates.file_hz / out.rates.used_hz();
@@ -132,11 +142,14 @@ void set_rate(const LibrarySource& source,
     label.start_s *= longer;
     label.end_s *= longer;
   }
-  if (const auto differs = out.rates.contradiction()) {
-    out.remarks.push_back(*differs);
-    const int last = static_cast<int>(out.motion.poses.size()) - 1;
-    out.problems.push_back({{0, last}, "rate", "", out.rates.file_hz});
-  }
+  if (const auto differs = out.rates.contradiction()) out.remarks.push_back(*differs);
+  const auto chosen = library::choose_rate(witnesses);
+  if (!chosen) return;
+  out.figures.push_back({std::string(chosen->figure.name),
+                         chosen->figure.value,
+                         std::nullopt,
+                         "",
+                         std::nullopt});
 }
 
 }  // namespace

@@ -16,8 +16,9 @@ namespace marey::app {
 
 struct ReadSourceOptions {
   CleanBy clean = CleanBy::kNone;
-  std::optional<double> table_rate_hz;  ///< Rate of the index table for this file.
-  std::string table_evidence;           ///< IndexEntry::evidence.
+  std::optional<double> table_rate_hz;     ///< Rate of the index table for this file.
+  std::optional<double> table_duration_s;  ///< Duration that the index table states.
+  std::string table_evidence;              ///< IndexEntry::evidence.
   /// Folder for temporary results of a solve; empty: the system's. They are removed.
   std::filesystem::path scratch;
 };

@@ -45,9 +45,8 @@ struct SourceMotion {
   /// Measured while reading: bones_mm, residual_mm, cleaned_mm...; without verdicts.
   /// Ascending by name.
   std::vector<ClipFigure> figures;
-  /// Problems of all frames. "rate": stated rates differ; the value is the file's [Hz].
-  /// "sides": left and right are exchanged. "fit": the solver reports poor results; the
-  /// value is their number.
+  /// Problems of all frames. "sides": left and right are exchanged. "fit": the solver
+  /// reports poor results; the value is their number.
   std::vector<ClipProblem> problems;
   std::vector<ClipLabel> labels;     ///< Labels that the source has.
   std::vector<ClipEvent> events;     ///< Events that the source has.
