@@ -20,4 +20,9 @@ template <class Words>
   return list;
 }
 
+/// Returns "1 clip" or "2 clips" for `one` = "clip".
+[[nodiscard]] inline std::string counted(std::size_t count, const std::string& one) {
+  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
+
 }  // namespace marey::app

@@ -57,8 +57,8 @@ bool LabelTable::next() {
               "write a quote inside a cell twice, and the cell in quotes");
     } else if (cells_.size() != header_.size()) {
       fail_at(with_number(":", lines_.line()),
-              with_number("the line has ", static_cast<int>(cells_.size())) +
-                  with_number(" cells instead of ", static_cast<int>(header_.size())),
+              with_number("the number of cells is ", static_cast<int>(cells_.size())) +
+                  with_number(", not ", static_cast<int>(header_.size())),
               "put texts that have a comma into quotes");
     }
     for (std::size_t i = 0; !mistake_ && i < cells_.size(); ++i) {

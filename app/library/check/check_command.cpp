@@ -104,8 +104,8 @@ Exit judge_check(const LibraryCheckArguments& args,
                      .message());
   }
   if (failing + warning == 0) return Exit::kOk;
-  std::string cause = std::to_string(failing) + " clips fail";
-  if (args.fail_on == "warn") cause += " and " + std::to_string(warning) + " warn";
+  std::string cause = "clips that fail: " + std::to_string(failing);
+  if (args.fail_on == "warn") cause += ", that warn: " + std::to_string(warning);
   return console.fail({Errc::kQuality,
                        args.library.string(),
                        cause,

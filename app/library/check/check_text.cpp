@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/shell/word_list.h"
 #include "core/base/format_text.h"
 #include "core/base/in_quotes.h"
 #include "core/base/printable.h"
@@ -138,7 +139,7 @@ void add_failed_sources(const LibraryCheck& check,
                         std::vector<std::string>& out) {
   if (check.failed.empty()) return;
   out.emplace_back();
-  out.push_back(format_text("%zu sources gave no clip:", check.failed.size()));
+  out.push_back(counted(check.failed.size(), "source") + " gave no clip:");
   for (std::size_t i = 0; i < std::min(check.failed.size(), max_sources); ++i) {
     const FailedSource& source = check.failed[i];
     out.push_back("  " + (source.where.empty() ? source.source : source.where) + ": " +

@@ -49,6 +49,8 @@ FailedSource failed_source(std::string name, std::string_view text) {
     }
     if (!rest.empty()) add_line(*part, rest);
   }
+  // Names of files below failed/ have no slash at their beginning.
+  if (out.where.starts_with("/" + out.source)) out.source.insert(0, "/");
   if (out.cause.empty()) std::swap(out.cause, out.where);
   out.cause = without_stop(std::move(out.cause));
   out.next = without_stop(std::move(out.next));

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/library/labels/import_labels.h"
+#include "app/shell/word_list.h"
 #include "core/base/in_quotes.h"
 #include "core/base/printable.h"
 #include "core/finding.h"
@@ -52,8 +53,8 @@ void warn_of_names(const UnmatchedNames& unmatched,
   }
   console.warn(fair_finding("labels",
                             file.string(),
-                            std::to_string(unmatched.labels) +
-                                " labels are not used, as " + cause + ": " + names,
+                            counted(unmatched.labels, "label") + " not used, as " +
+                                cause + ": " + names,
                             next)
                    .message());
 }
@@ -80,8 +81,8 @@ void say_stored(const ImportedLabels& labels,
                 const StoredTable& stored,
                 const LibraryAnnotateArguments& args,
                 Console& console) {
-  const std::string about = std::to_string(labels.rows.size()) + " labels for " +
-                            std::to_string(labels.clips) + " clips";
+  const std::string about =
+      counted(labels.rows.size(), "label") + " for " + counted(labels.clips, "clip");
   const std::string file = stored.file.string();
   if (stored.state == StoredTable::State::kUnchanged) {
     console.say(file + " has these " + about + " already: nothing to do");
@@ -109,11 +110,10 @@ void report_unmatched(const ImportedLabels& labels,
                 console);
   if (labels.left_out > 0) {
     console.warn(
-        fair_finding(
-            "labels",
-            file.string(),
-            std::to_string(labels.left_out) +
-                " labels have no text or impossible times, and are left out")
+        fair_finding("labels",
+                     file.string(),
+                     std::to_string(labels.left_out) +
+                         " labels have no text or impossible times, and are left out")
             .message());
   }
 }

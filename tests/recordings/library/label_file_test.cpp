@@ -65,7 +65,7 @@ TEST(LabelFile, RefusesMistakesWithLineAndColumn) {
       {"", "a.csv: the table is empty. Next: write the first line as clip_or_source,"},
       {"clip,start_s\n", "a.csv:1: the first line \"clip,start_s\" is not"},
       {"clip_or_source;start_s;end_s;label;by;sure\n", "commas between the cells"},
-      {"ROWSa,0,1,walk,b\n", "a.csv:2: the line has 5 cells instead of 6"},
+      {"ROWSa,0,1,walk,b\n", "a.csv:2: the number of cells is 5, not 6"},
       {"ROWSa,0,1,walk, slow,b,1\n", "put texts that have a comma into quotes"},
       {"ROWS,0,1,walk,b,1\n", "a.csv:2:1: \"clip_or_source\" is empty"},
       {"ROWSa,zero,1,walk,b,1\n", "a.csv:2:3: \"start_s\" is \"zero\", which is not a"},

@@ -108,7 +108,7 @@ TEST(LibraryCheck, PrintsTheWorstWithTimesAndReasons) {
         "slide                2      3     3.0 s",
         "  fail d clip d, 10.00 s\n    spike of head at 1.00-1.03 s: 6\n",
         "  and 1 more: see the page",
-        "1 sources gave no clip:\n  walks/x.bvh:12: it ends early. Next: copy it "
+        "1 source gave no clip:\n  walks/x.bvh:12: it ends early. Next: copy it "
         "again.\n"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   }
@@ -189,17 +189,19 @@ TEST(FailedSources, AreReadWithCauseAndNextStep) {
   write("walks/b.bvh.txt",
         "walks/b.bvh:7\nCause: expected 57 values, found 56.\nNext: export it again.\n");
   write("a.amc.txt", "the program ended with signal 11\x1b\n");
+  write("data/c.bvh.txt", "/data/c.bvh: 3\nCause: it ends.\nNext: export it again.\n");
   write("notes.md", "no reason");
   const auto failed = read_failed_sources(folder.path());
   ASSERT_TRUE(failed);
-  ASSERT_EQ(failed->size(), 2u);
-  EXPECT_EQ((*failed)[0].source, "a.amc");
-  EXPECT_EQ((*failed)[0].cause, "the program ended with signal 11?");
-  EXPECT_EQ((*failed)[0].where, "");
-  EXPECT_EQ((*failed)[1].source, "walks/b.bvh");
-  EXPECT_EQ((*failed)[1].where, "walks/b.bvh:7");
-  EXPECT_EQ((*failed)[1].cause, "expected 57 values, found 56");
-  EXPECT_EQ((*failed)[1].next, "export it again");
+  ASSERT_EQ(failed->size(), 3u);
+  EXPECT_EQ((*failed)[0].source, "/data/c.bvh");
+  EXPECT_EQ((*failed)[1].source, "a.amc");
+  EXPECT_EQ((*failed)[1].cause, "the program ended with signal 11?");
+  EXPECT_EQ((*failed)[1].where, "");
+  EXPECT_EQ((*failed)[2].source, "walks/b.bvh");
+  EXPECT_EQ((*failed)[2].where, "walks/b.bvh:7");
+  EXPECT_EQ((*failed)[2].cause, "expected 57 values, found 56");
+  EXPECT_EQ((*failed)[2].next, "export it again");
 }
 
 }  // namespace

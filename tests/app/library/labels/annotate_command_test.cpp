@@ -86,7 +86,7 @@ TEST_F(LibraryAnnotate, StoresExactNamesAndReportsTheOthers) {
   EXPECT_EQ(json["unknown"]["names"], Json({"run"}));
   EXPECT_EQ(json["ambiguous"]["names"], Json({"walk"}));
   EXPECT_EQ(json["state"], "new");
-  EXPECT_NE(run.err.find("2 labels are not used, as no clip or source has their name: "
+  EXPECT_NE(run.err.find("2 labels not used, as no clip or source has their name: "
                          "\"run\". Next: "),
             std::string::npos)
       << run.err;
