@@ -7,7 +7,7 @@
 # pages that state that these are left out.
 option(MAREY_VIEWER "Build the served page and the reports with npm, and build them in" ON)
 
-set(kinds report calibration markers library)
+set(kinds report calibration markers library_check)
 # set_report_parts(PAGES <folder> STYLE <file> ... [SCRIPTS <folder>]): without scripts, all
 # kinds have the page report.html.
 function(set_report_parts)

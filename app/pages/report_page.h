@@ -30,8 +30,8 @@ namespace marey::app {
 [[nodiscard]] std::string_view markers_script();
 
 // The same for the page of a library's check.
-[[nodiscard]] std::string_view library_page();
-[[nodiscard]] std::string_view library_style();
-[[nodiscard]] std::string_view library_script();
+[[nodiscard]] std::string_view library_check_page();
+[[nodiscard]] std::string_view library_check_style();
+[[nodiscard]] std::string_view library_check_script();
 
 }  // namespace marey::app

@@ -21,7 +21,7 @@ const sections = {
     parameters: 'Parameters', outliers: 'Outliers'},
   markers: {samples: 'Samples', residuals: 'Distance from the body', curves: 'Before and after',
     stills: 'Stills', joints: 'Joint centres', labels: 'Labels'},
-  library: {figures: 'Figures', problems: 'Kinds of problems',
+  library_check: {figures: 'Figures', problems: 'Kinds of problems',
     sources: 'Sources without clips', clips: 'Clips'},
 };
 

@@ -99,10 +99,11 @@ std::string check_page(const LibraryCheck& check) {
                          {"folder", check.folder},
                          {"left_out", check.worst_first.size() - count},
                          {"clips", clips}};
-  return fill_page(library_page(),
-                   {{"style", std::string(report_style()) + std::string(library_style())},
-                    {"data", json_in_html(data)},
-                    {"script", std::string(library_script())}});
+  return fill_page(
+      library_check_page(),
+      {{"style", std::string(report_style()) + std::string(library_check_style())},
+       {"data", json_in_html(data)},
+       {"script", std::string(library_check_script())}});
 }
 
 }  // namespace marey::app
