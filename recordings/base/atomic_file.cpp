@@ -231,6 +231,14 @@ void AtomicFile::append(std::string_view bytes) {
   if (!stream_) write_errno_ = errno;
 }
 
+void AtomicFile::overwrite(std::uint64_t offset, std::string_view bytes) {
+  MAREY_ASSERT(open_);
+  if (!stream_) return;
+  stream_.seekp(static_cast<std::streamoff>(offset));
+  append(bytes);
+  stream_.seekp(0, std::ios::end);
+}
+
 Status AtomicFile::commit() {
   MAREY_ASSERT(open_);
   errno = 0;

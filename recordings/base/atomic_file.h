@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -35,6 +36,11 @@ class AtomicFile {
 
   /// Appends bytes. commit() reports a failure. Precondition: not committed.
   void append(std::string_view bytes);
+
+  /// Replaces bytes that were appended, from `offset` on: a header that is known at the
+  /// end. commit() reports a failure. Preconditions: not committed; all of these bytes
+  /// were appended.
+  void overwrite(std::uint64_t offset, std::string_view bytes);
 
   /// Moves the file to its final path. Errors (kDevice): the disk is full or failed, or
   /// the folder has changed meanwhile. Precondition: not committed.
