@@ -104,6 +104,7 @@ LibraryVerdictRequest verdict_of(RequestMembers& members) {
   LibraryVerdictRequest out;
   out.clip_id = clip_id_of_request(members);
   out.figure = stored_text(members, "figure", kMaxWordBytes, true);
+  out.frames = members.optional_span("frames");
   out.verdict = word_of(members, "verdict", kVerdicts);
   out.by = stored_text(members, "by", kMaxWordBytes, true);
   out.note = stored_text(members, "note", kMaxNoteBytes, false);

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/frame_range.h"
 #include "core/base/result.h"
 #include "core/library/clip_record.h"
 #include "live/page/page_request.h"
@@ -40,6 +41,8 @@ struct LibraryClipRequest {
 struct LibraryVerdictRequest {
   std::string clip_id{};
   std::string figure{};
+  /// Part of the clip that the verdict is about; nullopt: all of it.
+  std::optional<FrameRange> frames = std::nullopt;
   Verdict verdict = Verdict::kPass;
   std::string by{};
   std::string note{};

@@ -41,7 +41,11 @@ Result<std::shared_ptr<const LibraryMotion>> ClipMotions::object(const std::stri
   if (!std::filesystem::exists(file, ignored)) {
     return bad_input(file.string(), "the motion of this clip is missing", kBuildAgain);
   }
-  if (const Status ok = check_link(file, library_); !ok) return ok.error();
+  if (!is_inside(file, library_)) {
+    return bad_input(file.string(),
+                     "a link leads out of the folder of the library",
+                     "put the objects themselves into the library");
+  }
   auto read = recordings::read_motion_object(file);
   if (!read) return read.error();
   kept_.push_front({key, std::make_shared<const LibraryMotion>(*std::move(read))});

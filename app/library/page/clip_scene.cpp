@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/library/page/clip_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "app/library/page/clip_drawing.h"
+#include "core/resample.h"
+
+namespace marey::app {
+namespace {
+
+/// Turns and moves a motion on the floor so that it starts at the origin and faces +Z.
+void start_at_front(Motion& motion) {
+  const Pose first = motion.poses.front();
+  const glm::dquat turn =
+      glm::angleAxis(-facing_rad(motion.skeleton, first), glm::dvec3(0.0, 1.0, 0.0));
+  const glm::dvec3 start(first.root_in_world.x, 0.0, first.root_in_world.z);
+  for (Pose& pose : motion.poses) {
+    pose.root_in_world = turn * (pose.root_in_world - start);
+    if (pose.parent_from_joint.empty()) continue;
+    pose.parent_from_joint.front() = turn * pose.parent_from_joint.front();
+  }
+}
+
+/// Keeps every `step`th pose.
+void thin_out(Motion& motion, int step) {
+  if (step == 1) return;
+  std::vector<Pose> kept;
+  for (std::size_t i = 0; i < motion.poses.size(); i += static_cast<std::size_t>(step)) {
+    kept.push_back(std::move(motion.poses[i]));
+  }
+  motion.poses = std::move(kept);
+  motion.rate.hz /= step;
+}
+
+/// Returns the motion from the start of its part on, `speed` times as fast, at `rate`.
+Motion from_its_part(const MotionBeside& beside, double speed, FrameRate rate) {
+  Motion out = beside.motion;
+  const auto last = static_cast<long>(out.poses.size()) - 1;
+  const long first = std::clamp(std::lround(beside.start_s * out.rate.hz), 0L, last);
+  out.poses.erase(out.poses.begin(), out.poses.begin() + first);
+  out.first_frame = 0;
+  out.rate.hz *= speed;
+  return resample(out, rate);
+}
+
+ViewedFigure figure_of(std::string name, live::PageSkeletonKind kind, Motion motion) {
+  start_at_front(motion);
+  return {.name = std::move(name), .kind = kind, .motion = std::move(motion)};
+}
+
+}  // namespace
+
+Result<ClipScene> make_clip_scene(const std::string& name,
+                                  const Motion& clip,
+                                  double compared_s,
+                                  std::span<const MotionBeside> beside,
+                                  std::size_t first_media) {
+  ClipScene out;
+  Motion shown = clip;
+  shown.first_frame = 0;
+  out.frame_step = static_cast<int>((clip.poses.size() - 1) / kMaxSceneFrames) + 1;
+  thin_out(shown, out.frame_step);
+  ViewedRecording recording;
+  recording.title = name;
+  recording.rate = shown.rate;
+  recording.frames = static_cast<int>(shown.poses.size());
+  recording.figures.push_back(
+      figure_of(name, live::PageSkeletonKind::kPerformer, std::move(shown)));
+  for (const MotionBeside& one : beside) {
+    // The search stretches at most twofold, and rounds to 0.1 s.
+    const bool has_part = compared_s > 0.0 && one.end_s > one.start_s;
+    const double speed =
+        has_part ? std::clamp((one.end_s - one.start_s) / compared_s, 0.4, 2.5) : 1.0;
+    recording.figures.push_back(figure_of(one.name,
+                                          live::PageSkeletonKind::kMotion,
+                                          from_its_part(one, speed, recording.rate)));
+  }
+  auto page = page_of_recording(recording, first_media);
+  if (!page) return page.error();
+  out.page = *std::move(page);
+  return out;
+}
+
+}  // namespace marey::app
