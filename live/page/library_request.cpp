@@ -49,12 +49,15 @@ constexpr std::array<std::pair<std::string_view, LibrarySort>, 6> kSorts{
      {"quality", LibrarySort::kQuality},
      {"licence", LibrarySort::kLicence}}};
 
-/// Reads a text that is stored in a table. `is_needed`: it may not be empty.
+/// Reads a text that is stored in a table, without blanks around it. `is_needed`: it may
+/// not be empty.
 std::string stored_text(RequestMembers& members,
                         const char* member,
                         std::size_t max_bytes,
                         bool is_needed) {
   std::string text = members.text(member, max_bytes);
+  text.erase(0, std::min(text.find_first_not_of(' '), text.size()));
+  text.erase(text.find_last_not_of(' ') + 1);
   const bool has_control = std::ranges::any_of(
       text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
   if (has_control) members.fail(member, "without control characters");
