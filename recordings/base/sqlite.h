@@ -86,8 +86,11 @@ class Statement {
   /// Fetches the next row, if any. After the last one, failed() distinguishes the end
   /// from an error.
   [[nodiscard]] bool next_row();
+  /// Ends the rows of a query, so that other values can be bound.
+  void reset();
   [[nodiscard]] bool failed() const { return result_ != SQLITE_DONE; }
 
+  [[nodiscard]] bool is_null(int column) const;
   [[nodiscard]] std::int64_t integer(int column) const;
   [[nodiscard]] double number(int column) const;
   [[nodiscard]] std::string text(int column) const;

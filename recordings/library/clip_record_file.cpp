@@ -14,6 +14,7 @@
 #include "core/base/in_quotes.h"
 #include "recordings/base/nesting.h"
 #include "recordings/base/sha256.h"
+#include "recordings/library/enum_named.h"
 
 namespace marey::recordings {
 namespace {
@@ -67,15 +68,6 @@ RecordJson list_json(const std::vector<Item>& items, const ToJson& to_json) {
   RecordJson out = RecordJson::array();
   for (const Item& item : items) out.push_back(to_json(item));
   return out;
-}
-
-/// Returns the value of an enumeration whose name() is `word`.
-template <class Enum>
-std::optional<Enum> enum_named(std::string_view word) {
-  for (int i = 0; i < 3; ++i) {
-    if (name(static_cast<Enum>(i)) == word) return static_cast<Enum>(i);
-  }
-  return std::nullopt;
 }
 
 /// Reads one object of the tree. Stores the first mistake; values after it are empty.

@@ -4,8 +4,6 @@
 
 #include <filesystem>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "core/base/result.h"
 #include "core/library/clip_record.h"
@@ -13,7 +11,7 @@
 namespace marey::recordings {
 
 /// Version of the tables of library.sqlite.
-inline constexpr int kLibraryIndexVersion = 1;
+inline constexpr int kLibraryIndexVersion = 2;
 
 /// Makes the index of a library: a database of its records (tables in
 /// docs/formats/library.md), always as a whole. It appears at `path` complete or not at
@@ -21,20 +19,8 @@ inline constexpr int kLibraryIndexVersion = 1;
 /// `records`. Same records, same bytes.
 /// Errors (kDevice): the disk. Memory: some megabytes for SQLite's pages. Cost: 20 s for
 /// 100 000 clips with ten labels each.
-/// Precondition: ids of clips are different.
+/// Preconditions: ids of clips are different; numbers are finite.
 [[nodiscard]] Status write_library_index(const std::filesystem::path& path,
                                          std::span<const ClipRecord> records);
-
-/// A condition that SQLite evaluates on the table `clip`, and its values in order.
-struct IndexCondition {
-  std::string sql;  ///< With ? for each value; empty: all clips.
-  std::vector<std::string> values;
-};
-
-/// Returns the numbers of the clips that fulfil a condition, ascending.
-/// Errors (kBadInput): no index at `path`, a damaged one, or of another version; a
-/// condition that SQLite refuses.
-[[nodiscard]] Result<std::vector<int>> find_in_index(const std::filesystem::path& path,
-                                                     const IndexCondition& condition);
 
 }  // namespace marey::recordings
