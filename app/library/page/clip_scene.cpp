@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <utility>
 
 #include <glm/gtc/quaternion.hpp>
@@ -13,6 +15,42 @@
 
 namespace marey::app {
 namespace {
+
+/// Returns the motion of the hips and the joints below them. A joint above the hips often
+/// stays at the origin of the recording, far from the body.
+Motion from_hips(const Motion& motion) {
+  const auto hips = motion.skeleton.find(HumanBone::kHips);
+  if (!hips || index(*hips) == 0) return motion;
+  Motion out{{}, motion.rate, motion.first_frame, {}};
+  std::vector<std::optional<JointIndex>> place_of(motion.skeleton.joints.size());
+  std::vector<std::size_t> kept;
+  for (std::size_t i = index(*hips); i < motion.skeleton.joints.size(); ++i) {
+    Joint joint = motion.skeleton.joints[i];
+    if (i == index(*hips)) {
+      joint.parent.reset();
+    } else if (!joint.parent || !place_of[index(*joint.parent)]) {
+      continue;
+    } else {
+      joint.parent = place_of[index(*joint.parent)];
+    }
+    place_of[i] = JointIndex{static_cast<int>(kept.size())};
+    kept.push_back(i);
+    out.skeleton.joints.push_back(std::move(joint));
+  }
+  std::vector<RigidTransform> world(motion.skeleton.joints.size());
+  world_from_joints(motion.skeleton, rest_pose(motion.skeleton), world);
+  out.skeleton.joints.front().parent_from_joint = world[index(*hips)];
+  for (const Pose& pose : motion.poses) {
+    world_from_joints(motion.skeleton, pose, world);
+    Pose& below = out.poses.emplace_back();
+    below.root_in_world = world[index(*hips)].translation;
+    for (const std::size_t i : kept) {
+      below.parent_from_joint.push_back(pose.parent_from_joint[i]);
+    }
+    below.parent_from_joint.front() = world[index(*hips)].rotation;
+  }
+  return out;
+}
 
 /// Turns and moves a motion on the floor so that it starts at the origin and faces +Z.
 void start_at_front(Motion& motion) {
@@ -40,7 +78,7 @@ void thin_out(Motion& motion, int step) {
 
 /// Returns the motion from the start of its part on, `speed` times as fast, at `rate`.
 Motion from_its_part(const MotionBeside& beside, double speed, FrameRate rate) {
-  Motion out = beside.motion;
+  Motion out = from_hips(beside.motion);
   const auto last = static_cast<long>(out.poses.size()) - 1;
   const long first = std::clamp(std::lround(beside.start_s * out.rate.hz), 0L, last);
   out.poses.erase(out.poses.begin(), out.poses.begin() + first);
@@ -62,7 +100,7 @@ Result<ClipScene> make_clip_scene(const std::string& name,
                                   std::span<const MotionBeside> beside,
                                   std::size_t first_media) {
   ClipScene out;
-  Motion shown = clip;
+  Motion shown = from_hips(clip);
   shown.first_frame = 0;
   out.frame_step = static_cast<int>((clip.poses.size() - 1) / kMaxSceneFrames) + 1;
   thin_out(shown, out.frame_step);

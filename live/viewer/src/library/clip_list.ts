@@ -12,7 +12,7 @@ import {draw} from './drawings';
 import type {Drawings} from './drawings';
 import {scrolledTo, visibleRows} from './visible_rows';
 
-export const ROW_PX = 68;
+export const ROW_PX = 72;
 const SPARE_ROWS = 4;
 const MAX_CHIPS = 4;
 
@@ -28,12 +28,10 @@ class RowView {
   readonly canvas = el('canvas', {class: 'clip-poses', 'aria-hidden': 'true'});
   private readonly name = el('span', {class: 'clip-name'});
   private readonly chips = el('span', {class: 'clip-labels'});
-  private readonly time = el('span', {class: 'clip-time'});
-  private readonly rights = el('span', {class: 'clip-rights'});
+  private readonly facts = el('span', {class: 'clip-facts'});
   private readonly verdict = el('span', {class: 'clip-verdict'});
   readonly element = el('div', {class: 'clip-row', role: 'option'}, this.canvas,
-    el('div', {class: 'clip-words'}, this.name, this.chips),
-    el('div', {class: 'clip-facts'}, this.verdict, this.time, this.rights));
+    el('div', {class: 'clip-words'}, this.name, this.verdict, this.chips, this.facts));
   index = -1;
   clip = -1;
   /** The drawing on the canvas; undefined: none. */
@@ -48,7 +46,7 @@ class RowView {
     if (!row) {
       this.clip = -1;
       setText(this.name, '…');
-      for (const part of [this.time, this.rights, this.verdict]) setText(part, '');
+      for (const part of [this.facts, this.verdict]) setText(part, '');
       this.chips.replaceChildren();
       return;
     }
@@ -57,9 +55,9 @@ class RowView {
     setText(this.name, row.name);
     this.name.title = row.name;
     this.writeLabels(row);
-    setText(this.time, `${duration(row.seconds)} · ${Math.round(100 * row.rate_hz) / 100} Hz`);
-    setText(this.rights, [row.licence, row.split].filter((word) => word).join(' · '));
-    this.rights.title = this.rights.textContent ?? '';
+    setText(this.facts, [duration(row.seconds), `${Math.round(100 * row.rate_hz) / 100} Hz`,
+      row.licence, row.split].filter((word) => word).join(' · '));
+    this.facts.title = this.facts.textContent ?? '';
     setText(this.verdict, row.quality);
     this.verdict.className = `clip-verdict verdict-${row.quality}`;
   }

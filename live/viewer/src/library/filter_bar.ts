@@ -60,8 +60,9 @@ export class FilterBar {
     this.fillExamples();
     this.element = el('div', {class: 'clip-filter'},
       el('div', {class: 'row'}, this.input, help), this.error, this.remarks, this.examples,
-      el('div', {class: 'row clip-orders'}, ...VERDICTS.map((verdict) => this.chips[verdict]),
-        el('span', {class: 'spring'}), sort, this.direction), this.count);
+      el('div', {class: 'row clip-orders'}, ...VERDICTS.map((verdict) => this.chips[verdict])),
+      el('div', {class: 'row clip-orders'}, this.count, el('span', {class: 'spring'}),
+        el('span', {class: 'quiet', 'aria-hidden': 'true'}, 'by'), sort, this.direction));
     this.listen();
     this.tell();
   }

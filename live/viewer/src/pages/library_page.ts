@@ -35,6 +35,9 @@ import {Questions} from '../library/questions';
 /** Holding an arrow key passes clips without loading them. */
 const CHOOSE_AFTER_MS = 90;
 
+/** Names of relations such as "hand_right above shoulder". */
+const GUTTER_PX = 138;
+
 const LIBRARY_KEYS: KeyHelp[] = [
   [['↑', '↓'], 'the clip above, below'],
   [['page up', 'page down'], 'in the list: a screen up, down'],
@@ -97,7 +100,7 @@ export class LibraryPage implements Listener, StageListener {
     byId('stage').append(this.stage.element, this.message);
     byId('stage').before(el('section', {id: 'clips', 'aria-label': 'Library'},
       this.filter.element, this.list.element));
-    this.timeline = new Timeline(this.theme, (frame) => this.stopAt(frame));
+    this.timeline = new Timeline(this.theme, (frame) => this.stopAt(frame), {gutter_px: GUTTER_PX});
     this.transport = new Transport(this.reel.playback, this.timeline, () => this.renew(),
       {keepOpen: true});
     this.transport.setMode(false);
