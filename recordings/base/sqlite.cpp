@@ -232,9 +232,10 @@ void Statement::bind(int place, double value) {
 }
 
 void Statement::bind(int place, std::string_view value) {
+  // A null pointer would bind NULL.
   sqlite3_bind_text(statement_.get(),
                     place + 1,
-                    value.data(),
+                    value.empty() ? "" : value.data(),
                     static_cast<int>(value.size()),
                     SQLITE_TRANSIENT);
 }

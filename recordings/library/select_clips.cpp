@@ -179,11 +179,13 @@ Result<ClipSet> ClipSelector::with_label(std::string_view text, double min_s) co
   return index_->select("SELECT clip FROM label WHERE name = ? AND b - a >= ?", values);
 }
 
-Result<ClipSet> ClipSelector::with_part_of_label(std::string_view part) const {
-  const IndexValue values[] = {part};
+Result<ClipSet> ClipSelector::with_part_of_label(std::string_view part,
+                                                 std::string_view beginning) const {
+  const IndexValue values[] = {beginning, beginning, beginning, part};
   return index_->select(
       "SELECT clip FROM label WHERE name IN (SELECT word FROM vocabulary WHERE kind = "
-      "'label' AND instr(lower(word), lower(?)) > 0)",
+      "'label' AND substr(word, 1, length(?)) = ? AND "
+      "instr(lower(substr(word, length(?) + 1)), lower(?)) > 0)",
       values);
 }
 

@@ -85,8 +85,10 @@ class ClipSelector {
   /// Selects clips with a label of this text that lasts for `min_s` or longer.
   [[nodiscard]] Result<ClipSet> with_label(std::string_view text,
                                            double min_s = 0.0) const;
-  /// Selects clips with a label that contains `part`. The case of A to Z does not count.
-  [[nodiscard]] Result<ClipSet> with_part_of_label(std::string_view part) const;
+  /// Selects clips with a label that begins with `beginning` and contains `part` after
+  /// it. The case of A to Z does not count in `part`.
+  [[nodiscard]] Result<ClipSet> with_part_of_label(std::string_view part,
+                                                   std::string_view beginning = {}) const;
   [[nodiscard]] Result<ClipSet> with_event(std::string_view name) const;
   [[nodiscard]] Result<ClipSet> with_problem(std::string_view kind) const;
   /// Selects clips with all of these words in their name or their labels (not those by
