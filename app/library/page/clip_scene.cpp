@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <glm/gtc/quaternion.hpp>
@@ -52,6 +53,44 @@ Motion from_hips(const Motion& motion) {
   return out;
 }
 
+/// Adds a joint at the end of a bone that has none, so that the page draws the bone.
+void add_end(Motion& motion, HumanBone bone, const glm::dvec3& end_in_joint) {
+  Skeleton& skeleton = motion.skeleton;
+  const auto joint = skeleton.find(bone);
+  if (!joint) return;
+  for (const Joint& other : skeleton.joints) {
+    if (other.parent == *joint) return;
+  }
+  Joint end;
+  end.name = std::string(name(bone)) + " end";
+  end.parent = *joint;
+  end.parent_from_joint.translation = end_in_joint;
+  skeleton.joints.push_back(std::move(end));
+  for (Pose& pose : motion.poses) pose.parent_from_joint.emplace_back(1.0, 0.0, 0.0, 0.0);
+}
+
+/// Adds the ends of head and hands, which motion objects do not have. Sizes of an average
+/// adult, as shares of the body's own lengths.
+void add_ends(Motion& motion) {
+  constexpr double kHeadShare = 0.13;  // Base to top of the skull; height of the base.
+  constexpr double kHandShare = 0.6;   // Wrist to fingertips; forearm.
+  const Skeleton& skeleton = motion.skeleton;
+  const auto rest = world_from_joints(skeleton, rest_pose(skeleton));
+  if (const auto head = skeleton.find(HumanBone::kHead)) {
+    double low_m = rest[index(*head)].translation.y;
+    const double high_m = low_m;
+    for (const RigidTransform& joint : rest) low_m = std::min(low_m, joint.translation.y);
+    add_end(motion, HumanBone::kHead, {0.0, kHeadShare * (high_m - low_m), 0.0});
+  }
+  for (const HumanBone bone : {HumanBone::kLeftHand, HumanBone::kRightHand}) {
+    const auto hand = motion.skeleton.find(bone);
+    if (!hand) continue;
+    // Axes at rest are parallel to the world's.
+    const glm::dvec3 forearm = motion.skeleton[*hand].parent_from_joint.translation;
+    add_end(motion, bone, kHandShare * forearm);
+  }
+}
+
 /// Turns and moves a motion on the floor so that it starts at the origin and faces +Z.
 void start_at_front(Motion& motion) {
   const Pose first = motion.poses.front();
@@ -89,6 +128,7 @@ Motion from_its_part(const MotionBeside& beside, double speed, FrameRate rate) {
 
 ViewedFigure figure_of(std::string name, live::PageSkeletonKind kind, Motion motion) {
   start_at_front(motion);
+  add_ends(motion);
   return {.name = std::move(name), .kind = kind, .motion = std::move(motion)};
 }
 

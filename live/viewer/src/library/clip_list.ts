@@ -31,7 +31,7 @@ class RowView {
   private readonly facts = el('span', {class: 'clip-facts'});
   private readonly verdict = el('span', {class: 'clip-verdict'});
   readonly element = el('div', {class: 'clip-row', role: 'option'}, this.canvas,
-    el('div', {class: 'clip-words'}, this.name, this.verdict, this.chips, this.facts));
+    el('div', {class: 'clip-words'}, this.name, this.chips, this.facts, this.verdict));
   index = -1;
   clip = -1;
   /** The drawing on the canvas; undefined: none. */

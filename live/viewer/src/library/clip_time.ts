@@ -46,7 +46,7 @@ function problemStrip(clip: ClipWords, toFrame: (frame: number) => number): Stri
 }
 
 function labelStrip(labels: readonly LabelWords[], colour: string, rate_hz: number): Strip {
-  const texts = grouped(labels, ({text}) => text);
+  const texts = grouped(labels, ({text}) => text).sort(([a], [b]) => a.localeCompare(b));
   const rows = new RunRows(texts.map(([text]) => text), texts.map(([, same]) =>
     same.map(({start_s, end_s}): Run => [start_s * rate_hz, end_s * rate_hz, LABEL])));
   const look = {colour, top: 3, height: ROW_PX - 8, least: LEAST_PX};
