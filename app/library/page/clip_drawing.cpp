@@ -17,7 +17,7 @@ constexpr double kEyeAside_rad = 0.61;  // 35 degrees: both arms and both legs a
 
 using DrawnJoints = std::array<JointIndex, kHumanBoneCount>;
 
-/// Returns the joint of each bone; of a missing one, its nearest ancestor's.
+/// Returns the joint of each bone. A missing bone has that of its nearest ancestor.
 DrawnJoints joints_of_bones(const Skeleton& skeleton) {
   DrawnJoints out{};
   for (const HumanBone bone : human_bones()) {

@@ -18,7 +18,7 @@ namespace marey::app {
 
 /// Clips that fulfil a condition, in the order of a list.
 struct FoundClips {
-  /// Of the clips that the query selects: passed, warned, failed.
+  /// Clips that the query selects: passed, warned, failed.
   std::array<int, 3> counts{};
   std::vector<int> numbers;  ///< With the wanted verdict, in order.
   std::vector<std::string> remarks;

@@ -116,10 +116,10 @@ void thin_out(Motion& motion, int step) {
 }
 
 /// Returns the motion from the start of its part on, `speed` times as fast, at `rate`.
-Motion from_its_part(const MotionBeside& beside, double speed, FrameRate rate) {
-  Motion out = from_hips(beside.motion);
+Motion from_its_part(const ComparedMotion& other, double speed, FrameRate rate) {
+  Motion out = from_hips(other.motion);
   const auto last = static_cast<long>(out.poses.size()) - 1;
-  const long first = std::clamp(std::lround(beside.start_s * out.rate.hz), 0L, last);
+  const long first = std::clamp(std::lround(other.start_s * out.rate.hz), 0L, last);
   out.poses.erase(out.poses.begin(), out.poses.begin() + first);
   out.first_frame = 0;
   out.rate.hz *= speed;
@@ -137,7 +137,7 @@ ViewedFigure figure_of(std::string name, live::PageSkeletonKind kind, Motion mot
 Result<ClipScene> make_clip_scene(const std::string& name,
                                   const Motion& clip,
                                   double compared_s,
-                                  std::span<const MotionBeside> beside,
+                                  std::span<const ComparedMotion> others,
                                   std::size_t first_media) {
   ClipScene out;
   Motion shown = from_hips(clip);
@@ -150,7 +150,7 @@ Result<ClipScene> make_clip_scene(const std::string& name,
   recording.frames = static_cast<int>(shown.poses.size());
   recording.figures.push_back(
       figure_of(name, live::PageSkeletonKind::kPerformer, std::move(shown)));
-  for (const MotionBeside& one : beside) {
+  for (const ComparedMotion& one : others) {
     // The search stretches at most twofold, and rounds to 0.1 s.
     const bool has_part = compared_s > 0.0 && one.end_s > one.start_s;
     const double speed =

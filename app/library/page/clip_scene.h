@@ -13,8 +13,8 @@
 
 namespace marey::app {
 
-/// A motion that is shown beside the chosen clip, and the part that corresponds to it.
-struct MotionBeside {
+/// A motion that is shown next to the chosen clip, and the part that corresponds to it.
+struct ComparedMotion {
   std::string name;
   Motion motion;
   double start_s = 0.0;  ///< Since its first frame.
@@ -30,7 +30,7 @@ struct ClipScene {
 /// Frames of a scene at most; longer clips are shown with fewer frames per second.
 inline constexpr std::size_t kMaxSceneFrames = 6000;
 
-/// Places a clip and the motions beside it in lanes, each from the front, from the start
+/// Places a clip and other motions in lanes, each from the front, from the start
 /// of its part on. The parts run as fast as the first `compared_s` seconds of the clip,
 /// so that they begin and end together; after that a motion continues to its end.
 /// Media are numbered from `first_media` on. Linear in frames times joints.
@@ -38,7 +38,7 @@ inline constexpr std::size_t kMaxSceneFrames = 6000;
 [[nodiscard]] Result<ClipScene> make_clip_scene(const std::string& name,
                                                 const Motion& clip,
                                                 double compared_s,
-                                                std::span<const MotionBeside> beside,
+                                                std::span<const ComparedMotion> others,
                                                 std::size_t first_media);
 
 }  // namespace marey::app

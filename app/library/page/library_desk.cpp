@@ -179,7 +179,7 @@ void LibraryDesk::serve(PageOfRecording page) {
 void LibraryDesk::add_neighbours(const live::LibraryClipRequest& request,
                                  const LibraryMotion& motion,
                                  ShownClip& shown) {
-  std::vector<MotionBeside> beside;
+  std::vector<ComparedMotion> others;
   FoundNeighbours found;
   if (neighbours_) {
     found = neighbours_->find(request.clip, request.is_mirrored, kNeighbours);
@@ -200,14 +200,14 @@ void LibraryDesk::add_neighbours(const live::LibraryClipRequest& request,
     one.end_s = row_time_s(clip, one.neighbour.last_row);
     auto read = motions_.read(clip);
     if (read && !read->motion.poses.empty()) {
-      beside.push_back({clip.name, std::move(read->motion), one.start_s, one.end_s});
+      others.push_back({clip.name, std::move(read->motion), one.start_s, one.end_s});
     } else if (!read) {
       one.trouble = read.error().message();
     }
     shown.neighbours.push_back(std::move(one));
   }
   auto scene = make_clip_scene(
-      shown.record.name, motion.motion, shown.compared_s, beside, media_number_ + 1);
+      shown.record.name, motion.motion, shown.compared_s, others, media_number_ + 1);
   if (!scene) {
     shown.trouble = scene.error().message();
     return;

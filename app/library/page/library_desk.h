@@ -34,7 +34,7 @@ class LibraryDesk {
   void answer(const live::ReceivedText& text);
 
   /// Reads the index again if its files have changed since, and publishes the new state.
-  /// Pages are told that their lists are outdated. Cost without a change: two calls of
+  /// Requests of open pages are outdated then. Cost without a change: two calls of
   /// stat().
   void look();
 

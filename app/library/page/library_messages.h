@@ -23,7 +23,7 @@ namespace marey::app {
 struct LibraryAsker {
   std::string about;  ///< Type of the request.
   std::string id;     ///< Chosen by the page.
-  int revision = 0;   ///< Of the open index.
+  int revision = 0;   ///< The open index.
 };
 
 /// The state of a library.
@@ -40,7 +40,7 @@ struct LibraryState {
 /// A neighbour with the columns that the page shows.
 struct ShownNeighbour {
   ClipNeighbour neighbour;
-  double start_s = 0.0;  ///< Of the part, since the first frame.
+  double start_s = 0.0;  ///< Start of the part, since the first frame.
   double end_s = 0.0;
   std::string trouble;  ///< The reason why its motion is not shown; empty: it is.
 };
@@ -49,7 +49,7 @@ struct ShownNeighbour {
 struct ShownClip {
   const ClipRecord& record;
   int number = 0;
-  std::string scene;    ///< Scene message of its motion; empty: there is none.
+  std::string scene;    ///< Scene message of its motion; empty: no motion.
   int frame_step = 1;   ///< Frames of the clip from one frame of the scene to the next.
   std::string trouble;  ///< The reason why there is no motion.
   bool is_mirrored = false;

@@ -76,7 +76,7 @@ test('the filter takes the words of a query, and reports a wrong one with its pl
   await until('all clips', async () => (await count()) === `${CLIPS} clips`);
 });
 
-test('arrow keys choose a clip, which plays beside its neighbours', async () => {
+test('arrow keys choose a clip, which plays with its neighbours', async () => {
   await page.locator('.clip-row').first().click();
   await until('the first clip', async () => (await chosen()) === 'walk_100');
   await page.keyboard.press('ArrowDown');

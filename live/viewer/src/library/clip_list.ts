@@ -55,8 +55,8 @@ class RowView {
     setText(this.name, row.name);
     this.name.title = row.name;
     this.writeLabels(row);
-    setText(this.facts, [duration(row.seconds), `${Math.round(100 * row.rate_hz) / 100} Hz`,
-      row.licence, row.split].filter((word) => word).join(' · '));
+    setText(this.facts, [duration(row.seconds), row.licence, row.split,
+      `${Math.round(100 * row.rate_hz) / 100} Hz`].filter((word) => word).join(' · '));
     this.facts.title = this.facts.textContent ?? '';
     setText(this.verdict, row.quality);
     this.verdict.className = `clip-verdict verdict-${row.quality}`;

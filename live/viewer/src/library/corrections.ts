@@ -34,7 +34,7 @@ function storedWords(stored: Stored): string {
     ? `Stored in ${stored.file}. The next “marey library build” applies it.` : stored.problem;
 }
 
-/** Returns a form that closes with Escape and tells what became of it. */
+/** Returns a form that closes with Escape and shows the result of its request. */
 function form(kind: string, title: string, parts: HTMLElement[], closed: () => void,
   store: () => Promise<Stored> | string): HTMLFormElement {
   const note = el('p', {class: 'correction-note', role: 'status'});

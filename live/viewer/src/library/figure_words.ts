@@ -10,7 +10,7 @@ const UNITS: readonly [RegExp, string][] = [[/_cm_s$/, '\u00a0cm/s'], [/_mm$/, '
   [/_deg$/, '°'], [/_sigma$/, '\u00a0σ'], [/_s$/, '\u00a0s'], [/_frames$/, '\u00a0frames'],
   [/_share$/, ''], [/_count$/, ''], [/_ratio$/, '']];
 
-/** What a figure means, for people. */
+/** Meanings of figures, for people. */
 const MEANINGS: Record<string, string> = {
   cut: 'a jump of the whole body: frames are missing',
   drift_mm: 'path of a foot during one contact',

@@ -34,7 +34,7 @@ export class Questions {
     });
   }
 
-  /** Receives an answer. Returns false if nobody asked for it. */
+  /** Receives an answer. Returns false if it answers no request. */
   hear(words: LibraryServerWords | {type: 'error'; id?: string; text: string}): boolean {
     const id = 'id' in words ? words.id : undefined;
     const asked = id === undefined ? undefined : this.open.get(id);

@@ -36,7 +36,7 @@ import {Questions} from '../library/questions';
 const CHOOSE_AFTER_MS = 90;
 
 /** Names of relations such as "hand_right above shoulder". */
-const GUTTER_PX = 138;
+const GUTTER_PX = 148;
 
 const LIBRARY_KEYS: KeyHelp[] = [
   [['↑', '↓'], 'the clip above, below'],

@@ -141,7 +141,7 @@ TEST_F(LibraryPage, DrawsFourPosturesOfEachClip) {
   EXPECT_GT(poses[0][11], poses[0][1]);  // The head is above the hips.
 }
 
-TEST_F(LibraryPage, ShowsAClipBesideItsNeighbours) {
+TEST_F(LibraryPage, ShowsAClipWithItsNeighbours) {
   open();
   const Json shown = clip(1);
   ASSERT_EQ(shown["type"], "clip");
@@ -158,7 +158,7 @@ TEST_F(LibraryPage, ShowsAClipBesideItsNeighbours) {
   EXPECT_TRUE(clip(1, true)["mirrored"].get<bool>());
 }
 
-TEST_F(LibraryPage, RemovesMotionsThatNobodyShows) {
+TEST_F(LibraryPage, RemovesOldMotions) {
   open();
   const std::string first = clip(0)["scene"]["file"]["block"];
   for (int i = 0; i < 13; ++i) (void)clip(1 + i % 5);
@@ -263,12 +263,12 @@ TEST_F(LibraryPage, NoticesThatTheLibraryWasBuiltAgain) {
   EXPECT_EQ(now["type"], "library");
   EXPECT_EQ(now["clips"], 3);
   EXPECT_GT(now["revision"], library["revision"]);
-  EXPECT_EQ(list()["type"], "outdated");  // Of the old revision.
+  EXPECT_EQ(list()["type"], "outdated");  // The old revision.
   library = now;
   EXPECT_EQ(list()["found"], 3);
 }
 
-TEST_F(LibraryPage, SaysHowALibraryWithoutAnIndexIsBuilt) {
+TEST_F(LibraryPage, NamesTheCommandThatBuildsALibrary) {
   std::ofstream(folder / "library.toml") << "format = 1\nname = \"new\"\n";
   start();
   EXPECT_EQ(library["clips"], 0);

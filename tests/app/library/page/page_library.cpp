@@ -3,6 +3,8 @@
 #include "tests/app/library/page/page_library.h"
 
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -11,6 +13,7 @@
 #include "library/features/feature_basis.h"
 #include "library/quality/measure_quality.h"
 #include "library/search/relations.h"
+#include <glm/gtc/quaternion.hpp>
 
 #include "recordings/base/atomic_file.h"
 #include "recordings/base/sha256.h"
@@ -79,6 +82,26 @@ ClipRecord record_of(const PageClip& clip,
   return out;
 }
 
+/// Lowers the arms of the T-pose and swings them against the legs.
+void swing_arms(Motion& motion) {
+  constexpr double kLowered_rad = 1.3;
+  constexpr double kSwing_rad = 0.45;
+  constexpr double kCycle_s = 1.1;  // Of synthetic_walk().
+  const auto left = motion.skeleton.find(HumanBone::kLeftUpperArm);
+  const auto right = motion.skeleton.find(HumanBone::kRightUpperArm);
+  for (std::size_t i = 0; i < motion.poses.size(); ++i) {
+    const double time_s = static_cast<double>(i) / motion.rate.hz;
+    const double swing =
+        kSwing_rad * std::cos(2.0 * std::numbers::pi * time_s / kCycle_s);
+    const auto turn = [&](double side) {
+      return glm::angleAxis(side * swing, glm::dvec3(1.0, 0.0, 0.0)) *
+             glm::angleAxis(-side * kLowered_rad, glm::dvec3(0.0, 0.0, 1.0));
+    };
+    motion.poses[i].parent_from_joint[index(*left)] = turn(1.0);
+    motion.poses[i].parent_from_joint[index(*right)] = turn(-1.0);
+  }
+}
+
 /// The search files of a library.
 class SearchWriter {
  public:
@@ -136,6 +159,7 @@ std::vector<PageClip> sample_page_clips(int count) {
     PageClip clip;
     clip.name = "walk_" + std::to_string(100 + i);
     clip.motion = synthetic_walk(60 + 7 * (i % 9), 30.0).motion;
+    swing_arms(clip.motion);
     clip.labels = {i % 3 == 0 ? "walk" : "stroll"};
     if (i % 5 == 4) clip.licence = "CC-BY-NC-4.0";
     if (i % 2 == 1) {

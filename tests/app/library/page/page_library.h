@@ -17,7 +17,7 @@ struct PageClip {
   std::string name;
   Motion motion;
   std::string licence = "CC0-1.0";
-  std::vector<std::string> labels;  ///< Of the whole clip, by "table".
+  std::vector<std::string> labels;  ///< For the whole clip, by "table".
 };
 
 /// Writes a library as a build does, without its sources: library.toml, objects,
