@@ -18,6 +18,7 @@ export class LibraryBar {
   private readonly notice = el('p', {class: 'notice', role: 'alert', hidden: true});
   private connected = true;
   private isOutdated = false;
+  private hasList = true;
   private timer = 0;
 
   /** `reload` loads the list of the newest build. */
@@ -33,6 +34,7 @@ export class LibraryBar {
   }
 
   setLibrary(library: LibraryWords): void {
+    this.hasList = library.trouble === '';
     setText(this.title, library.name);
     this.title.title = library.folder;
     document.title = `${library.name} – marey`;
@@ -40,6 +42,7 @@ export class LibraryBar {
       library.failed > 0 ? `${plural(library.failed, 'source')} failed` : '']
       .filter((words) => words).join(' · '));
     this.figures.title = library.failed > 0 ? `The reasons are in ${library.folder}/failed` : '';
+    this.tell();
   }
 
   setConnected(connected: boolean): void {
@@ -63,7 +66,8 @@ export class LibraryBar {
 
   private tell(): void {
     const [state, words] = !this.connected ? ['offline', 'not connected']
-      : this.isOutdated ? ['behind', 'built again'] : ['tracked', 'up to date'];
+      : this.isOutdated ? ['behind', 'built again']
+        : this.hasList ? ['tracked', 'up to date'] : ['stopped', 'no list'];
     setText(this.pill, words);
     this.pill.className = `pill pill-${state}`;
     this.banner.hidden = this.connected && !this.isOutdated;
