@@ -19,6 +19,7 @@
 #include "app/inspect/doctor_commands.h"
 #include "app/inspect/inspect_commands.h"
 #include "app/library/library_commands.h"
+#include "app/library/page/library_view.h"
 #include "app/live/listen_commands.h"
 #include "app/live/live_commands.h"
 #include "app/live/replay_commands.h"
@@ -118,7 +119,7 @@ int run(int argc, char** argv) {
   add_plan_command(app, args.plan, chosen);
   add_repair_command(app, args.repair, chosen);
   add_fit_command(app, args.fit, chosen);
-  add_view_command(app, args.view, chosen);
+  add_view_command(app, args.view, library_folder_view(), chosen);
   add_inspect_command(app, args.inspect, chosen);
   add_doctor_command(app, args.doctor, chosen);
   add_demo_command(app, args.demo, chosen);

@@ -137,6 +137,7 @@ void add_page_options(CLI::App& command, PageServerOptions& options) {
 
 void add_view_command(CLI::App& app,
                       ViewArguments& args,
+                      FolderView library,
                       std::function<Exit(Console&)>& chosen) {
   CLI::App* command = app.add_subcommand(
       "view", "Show a motion, markers, cameras or results in a browser");
@@ -145,7 +146,7 @@ void add_view_command(CLI::App& app,
                    args.choice.what,
                    "Motion (" + body_extensions() +
                        "), markers (.c3d or .trc), a calibration.toml, a folder of "
-                       "results or a take of marey live")
+                       "results, a take of marey live or a motion library")
       ->required();
   command->add_option("--trial", args.choice.trial, "Which trial of a folder of results");
   command
@@ -157,11 +158,25 @@ void add_view_command(CLI::App& app,
   command->add_option("-x,--constraints",
                       args.constraints,
                       "Constraints (.xml) for frames with dragged handles");
+  command->add_option(
+      "--query", args.query, "Clips of a motion library to list: marey library query");
   add_page_options(*command, args.page);
   command->add_option("--seconds", args.seconds, "Stop after this time [s]")
       ->check(between(0.001, 1e6));
-  command->callback(
-      [&] { chosen = [&args](Console& console) { return run_view(args, console); }; });
+  command->callback([&args, &chosen, library = std::move(library)] {
+    if (library.fits(args.choice.what)) {
+      chosen = [&args, run = library.run](Console& console) {
+        return run(args, console);
+      };
+      return;
+    }
+    if (!args.query.empty()) {
+      throw RejectedArguments(
+          "--query is for motion libraries, which have a library.toml",
+          "leave it out, or give the folder of a library");
+    }
+    chosen = [&args](Console& console) { return run_view(args, console); };
+  });
 }
 
 }  // namespace marey::app

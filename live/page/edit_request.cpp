@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
@@ -13,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/in_quotes.h"
+#include "live/page/request_members.h"
 
 namespace marey::live {
 namespace {
@@ -24,8 +24,6 @@ constexpr std::size_t kMaxEditIdBytes = 64;
 constexpr std::size_t kMaxKeyBytes = 64;
 constexpr std::size_t kMaxSteps = 64;
 constexpr int kMaxLevels = 6;
-constexpr int kMaxCount = 1 << 30;
-constexpr double kMaxPeriod_s = 1e6;
 
 Error refused_edit(std::string cause) {
   return bad_input("message from the page", std::move(cause), "reload the page");
@@ -118,110 +116,8 @@ class OpText {
   std::string cause_;
 };
 
-/// Reads the members of one object by name, and keeps the first error.
-class EditMembers {
- public:
-  explicit EditMembers(const EditJson& object) : object_(object) {}
-
-  /// Returns a whole number that is not negative.
-  int count(const char* member) {
-    const EditJson* value = require(member);
-    return value == nullptr ? 0 : count_of(*value, member);
-  }
-  /// The same; nullopt: absent or null.
-  std::optional<int> optional_count(const char* member) {
-    const EditJson* value = find(member);
-    if (value == nullptr || value->is_null()) return std::nullopt;
-    return count_of(*value, member);
-  }
-  bool flag(const char* member) {
-    const EditJson* value = require(member);
-    if (value == nullptr) return false;
-    return flag_of(*value, member);
-  }
-  /// The same; false if absent.
-  bool optional_flag(const char* member) {
-    const EditJson* value = find(member);
-    return value != nullptr && flag_of(*value, member);
-  }
-  std::optional<double> optional_seconds(const char* member) {
-    const EditJson* value = find(member);
-    if (value == nullptr || value->is_null()) return std::nullopt;
-    const bool is_good = value->is_number() && std::isfinite(value->get<double>()) &&
-                         value->get<double>() >= 0.0 &&
-                         value->get<double>() <= kMaxPeriod_s;
-    if (!is_good) fail(member, "a time in seconds");
-    return is_good ? value->get<double>() : 0.0;
-  }
-  std::optional<FrameRange> optional_span(const char* member) {
-    const EditJson* value = find(member);
-    if (value == nullptr || value->is_null()) return std::nullopt;
-    if (!value->is_array() || value->size() != 2) {
-      fail(member, "a list of two frames");
-      return std::nullopt;
-    }
-    const FrameRange span{count_of((*value)[0], member), count_of((*value)[1], member)};
-    if (span.last < span.first) fail(member, "in the order first, last");
-    return span;
-  }
-  std::string text(const char* member, std::size_t max_bytes) {
-    const EditJson* value = require(member);
-    if (value == nullptr) return {};
-    if (!value->is_string() || value->get_ref<const std::string&>().size() > max_bytes) {
-      fail(member, "a text of a permitted length");
-      return {};
-    }
-    return value->get<std::string>();
-  }
-  const EditJson* require(const char* member) {
-    const EditJson* value = find(member);
-    if (value == nullptr && cause_.empty()) {
-      cause_ = std::string(member) + " is missing";
-    }
-    return value;
-  }
-  const EditJson* find(const char* member) {
-    read_.push_back(member);
-    const auto found = object_.find(member);
-    return found == object_.end() ? nullptr : &*found;
-  }
-  /// Checks that all members were read.
-  void finish() {
-    for (const auto& [key, value] : object_.items()) {
-      if (!cause_.empty()) return;
-      if (std::find(read_.begin(), read_.end(), key) == read_.end()) {
-        cause_ = "the member " + in_quotes(key) + " is unknown here";
-      }
-    }
-  }
-  void fail(const std::string& member, const std::string& want) {
-    if (cause_.empty()) cause_ = member + " is not " + want;
-  }
-  void fail(std::string cause) {
-    if (cause_.empty()) cause_ = std::move(cause);
-  }
-  /// Returns the first error; empty: none.
-  [[nodiscard]] const std::string& cause() const { return cause_; }
-
- private:
-  int count_of(const EditJson& value, const char* member) {
-    const bool is_good = value.is_number_unsigned() &&
-                         value.get<std::uint64_t>() <= std::uint64_t{kMaxCount};
-    if (!is_good) fail(member, "a whole number that is not negative");
-    return is_good ? value.get<int>() : 0;
-  }
-  bool flag_of(const EditJson& value, const char* member) {
-    if (!value.is_boolean()) fail(member, "true or false");
-    return value.is_boolean() && value.get<bool>();
-  }
-
-  const EditJson& object_;
-  std::vector<std::string> read_;
-  std::string cause_;
-};
-
 /// Reads the operation of a step.
-std::string op_of(EditMembers& step) {
+std::string op_of(RequestMembers& step) {
   const EditJson* op = step.require("op");
   if (op == nullptr) return {};
   if (!op->is_object()) {
@@ -234,7 +130,7 @@ std::string op_of(EditMembers& step) {
   return out;
 }
 
-OpsPatchStep step_of(EditMembers& members) {
+OpsPatchStep step_of(RequestMembers& members) {
   using Kind = OpsPatchStep::Kind;
   constexpr std::array<std::pair<const char*, Kind>, 5> kKinds{
       {{"insert", Kind::kInsert},
@@ -259,7 +155,7 @@ OpsPatchStep step_of(EditMembers& members) {
   return step;
 }
 
-OpsPatch patch_of(EditMembers& members) {
+OpsPatch patch_of(RequestMembers& members) {
   OpsPatch out;
   const EditJson* patch = members.require("ops_patch");
   if (patch == nullptr) return out;
@@ -272,7 +168,7 @@ OpsPatch patch_of(EditMembers& members) {
       members.fail("a step of ops_patch is not an object");
       return out;
     }
-    EditMembers step(one);
+    RequestMembers step(one);
     out.push_back(step_of(step));
     step.finish();
     if (!step.cause().empty()) members.fail(step.cause());
@@ -280,7 +176,7 @@ OpsPatch patch_of(EditMembers& members) {
   return out;
 }
 
-PreviewRequest preview_of(EditMembers& members, bool has_patch) {
+PreviewRequest preview_of(RequestMembers& members, bool has_patch) {
   PreviewRequest out;
   if (has_patch) out.patch = patch_of(members);
   out.until = members.optional_count("until");
@@ -289,7 +185,7 @@ PreviewRequest preview_of(EditMembers& members, bool has_patch) {
   return out;
 }
 
-LoopsRequest loops_of(EditMembers& members) {
+LoopsRequest loops_of(RequestMembers& members) {
   LoopsRequest out;
   out.until = members.optional_count("until");
   out.output = members.optional_count("output").value_or(0);
@@ -300,7 +196,7 @@ LoopsRequest loops_of(EditMembers& members) {
 }
 
 /// Reads the members of all types of changes. Returns false if the type is unknown.
-bool read_body(EditMembers& members, EditPageRequest& out) {
+bool read_body(RequestMembers& members, EditPageRequest& out) {
   const std::string& type = out.type;
   if (type == "edit") {
     out.body = EditRequest{0, patch_of(members)};
@@ -344,7 +240,7 @@ Result<EditPageRequest> read_edit_request(std::string_view text) {
   if (text.size() > kMaxEditBytes) return refused_edit("it is larger than 16 kB");
   const EditJson message = EditJson::parse(text, nullptr, /*allow_exceptions=*/false);
   if (!message.is_object()) return refused_edit("it is not a JSON object");
-  EditMembers members(message);
+  RequestMembers members(message);
   EditPageRequest out;
   out.type = members.text("type", kMaxEditIdBytes);
   if (out.type == "hello" || out.type == "shown") return common_request(text, out.type);

@@ -13,7 +13,7 @@
 #include "app/library/sources/list_sources.h"
 #include "app/library/sources/source_id.h"
 #include "core/base/result.h"
-#include "recordings/base/file_stat.h"
+#include "recordings/library/file_stat.h"
 
 namespace marey::app {
 

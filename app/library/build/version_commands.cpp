@@ -17,7 +17,7 @@
 #include "core/base/format_text.h"
 #include "core/base/printable.h"
 #include "recordings/base/atomic_file.h"
-#include "recordings/base/file_stat.h"
+#include "recordings/library/file_stat.h"
 #include "recordings/base/sha256.h"
 #include "recordings/library/index_head.h"
 #include "recordings/library/library_paths.h"

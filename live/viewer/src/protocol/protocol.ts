@@ -6,6 +6,8 @@
 
 import type {EditErrorWords, EditPageWords, EditWords} from './edit_protocol';
 import {EDIT_TYPES} from './edit_protocol';
+import type {LibraryPageWords, LibraryServerWords} from './library_protocol';
+import {LIBRARY_TYPES} from './library_protocol';
 
 export const PROTOCOL_VERSION = 1;
 
@@ -104,7 +106,8 @@ export type ServerWords =
   | WizardWords
   | {type: 'constraints'; constraints: ConstraintWords[]}
   | EditWords
-  | EditErrorWords;
+  | EditErrorWords
+  | LibraryServerWords;
 
 export type DragPhase = 'begin' | 'move' | 'end';
 export type WizardAction = 'start' | 'next' | 'cancel' | 'accept';
@@ -118,7 +121,8 @@ export type PageWords =
   | {type: 'record'; on: boolean}
   | {type: 'thumbnails'; on: boolean}
   | {type: 'trial'; name: string}
-  | EditPageWords;
+  | EditPageWords
+  | LibraryPageWords;
 
 /** Parses a text of the server, or returns its error. Only the outline is checked: the
  *  server is marey, and another version is reported. */
@@ -135,7 +139,7 @@ export function readServerWords(text: string): ServerWords | {type: 'bad'; why: 
   const {type} = words;
   if (type === 'scene') return readScene(words as SceneWords);
   if (type === 'status' || type === 'wizard' || type === 'constraints' || type === 'error' ||
-    EDIT_TYPES.includes(String(type))) {
+    EDIT_TYPES.includes(String(type)) || LIBRARY_TYPES.includes(String(type))) {
     return words as ServerWords;
   }
   return {type: 'bad', why: `a message has the unknown type ${String(type)}`};

@@ -25,6 +25,8 @@ export interface TimelineOptions {
   /** Part of a page that scrolls: the wheel zooms only after a click on the timeline. */
   scrolled?: boolean;
   graph_px?: number;
+  /** Width of the names; without it, it depends on the width of the timeline. */
+  gutter_px?: number;
   /** Handles that are dragged, and a picture on top. */
   tools?: TimelineExtension;
 }
@@ -132,7 +134,7 @@ export class Timeline {
   }
 
   private get gutter(): number {
-    return this.element.clientWidth < WIDE_PX ? 74 : 118;
+    return this.options.gutter_px ?? (this.element.clientWidth < WIDE_PX ? 74 : 118);
   }
 
   private get plot(): number {

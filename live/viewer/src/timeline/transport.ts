@@ -19,9 +19,10 @@ export class Transport {
   private live = false;
   private folded = false;
 
-  /** `changed` is called when the user changes the time or its speed. */
+  /** `changed` is called when the user changes the time or its speed. `keepOpen`: the rows of
+   *  the timeline are always shown. */
   constructor(private readonly playback: Playback, private readonly timeline: Timeline,
-    private readonly changed: () => void) {
+    private readonly changed: () => void, private readonly options: {keepOpen?: boolean} = {}) {
     this.playButton = this.button('play', 'Play (space)', () => this.toggle());
     this.liveButton = this.button('live-button', 'Go to now (End)', () => {
       playback.follow();
@@ -41,7 +42,7 @@ export class Transport {
     on.append('›');
     this.element = el('div', {class: 'transport'}, back, this.playButton, on, this.liveButton,
       this.clock, el('span', {class: 'spring'}), speed, this.loopButton, this.foldButton);
-    this.setFolded(remembered('timeline') !== 'open', false);
+    this.setFolded(!options.keepOpen && remembered('timeline') !== 'open', false);
   }
 
   /** Adapts the buttons to a scene of another kind. */
@@ -49,7 +50,7 @@ export class Transport {
     this.live = live;
     this.liveButton.hidden = !live;
     this.loopButton.hidden = live;
-    this.foldButton.hidden = !this.timeline.foldable;
+    this.foldButton.hidden = this.options.keepOpen === true || !this.timeline.foldable;
   }
 
   toggle(): void {
@@ -84,6 +85,7 @@ export class Transport {
   }
 
   toggleFold(): void {
+    if (this.options.keepOpen) return;
     this.setFolded(!this.folded);
   }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/base/file_stat.h"
+#include "recordings/library/file_stat.h"
 
 #include <sys/stat.h>
 
