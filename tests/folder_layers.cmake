@@ -19,4 +19,4 @@ set(live_LAYERS udp vmc page web)
 set(app_LAYERS
   shell motion pages adapt convert print plan record check markers process retarget
   live_chain view edit library/sources library/find library/labels library/export
-  library/build library/check library live inspect .)
+  library/build library/check library/page library live inspect .)
