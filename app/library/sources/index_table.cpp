@@ -268,6 +268,7 @@ class IndexReader {
                       ", with other content",
                   "remove one of the two lines");
     }
+    out_.words_.push_back(long_words(entry.description));
     out_.entries_.push_back(std::move(entry));
     return Done{};
   }
@@ -310,10 +311,9 @@ std::optional<IndexEntry> IndexTable::find(const SourceFile& file) const {
   if (words.empty()) return std::nullopt;
   IndexEntry out;
   std::size_t lines = 0;
-  for (const IndexEntry& entry : entries_) {
-    if (!entry.rate_hz) continue;
-    const std::set<std::string> described = long_words(entry.description);
-    if (!std::ranges::includes(described, words)) continue;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const IndexEntry& entry = entries_[i];
+    if (!entry.rate_hz || !std::ranges::includes(words_[i], words)) continue;
     if (lines > 0 && out.rate_hz != entry.rate_hz) return std::nullopt;
     out.rate_hz = entry.rate_hz;
     ++lines;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -64,6 +65,8 @@ class IndexTable {
   friend class IndexReader;
   std::string file_;
   std::vector<IndexEntry> entries_;
+  /// Words of four letters or more of each entry's description.
+  std::vector<std::set<std::string>> words_;
   /// Entry by name: file's names, or "2_1" for subject and trial without leading zeros.
   std::map<std::string, std::size_t, std::less<>> by_name_;
   std::map<std::string, std::size_t, std::less<>> by_trial_;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -115,6 +115,15 @@ void add_fit_figures(const MarkerTrial& trial, SourceMotion& out) {
                         " marker samples and filled " + std::to_string(filled));
 }
 
+/// Replaces options of `marey fit`, which a library does not have.
+std::string without_options(std::string text) {
+  constexpr std::string_view kOption = "--markers MAP.toml";
+  const std::size_t at = text.find(kOption);
+  if (at == std::string::npos) return text;
+  return text.replace(
+      at, kOption.size(), std::string("a ") + kMarkerMapFile + " in its folder");
+}
+
 /// Solves the markers of one person.
 Result<SourceMotion> solve_person(const fs::path& path,
                                   recordings::MarkerFile file,
@@ -142,6 +151,7 @@ Result<SourceMotion> solve_person(const fs::path& path,
   const std::vector<Finding> poor = assess_fit_run(args, run);
   for (const Finding& finding : assess_run(run)) out.remarks.push_back(finding.message());
   for (const Finding& finding : poor) out.remarks.push_back(finding.message());
+  for (std::string& remark : out.remarks) remark = without_options(std::move(remark));
   MarkerTrial& solved = run.trials.front();
   add_fit_figures(solved, out);
   out.motion = std::move(solved.solved->estimate.motion);
@@ -183,7 +193,10 @@ Result<std::vector<SourceMotion>> solve_marker_source(
     auto motion = solve_person(path, std::move(markers), options);
     if (!motion) {
       failed.push_back(name + " is left out: " + motion.error().message());
-      if (!first_error) first_error = motion.error();
+      if (!first_error) {
+        first_error = motion.error();
+        first_error->next = without_options(first_error->next);
+      }
       continue;
     }
     motion->body = name;
