@@ -23,8 +23,8 @@ namespace marey::recordings {
 /// Returns the number of clips. Cost: that of opening the file, about 1 ms.
 [[nodiscard]] Result<int> count_library_clips(const std::filesystem::path& index);
 
-/// Returns the complete records of the clips with these numbers, in this order: equal to
-/// those that were written. Cost: docs/accuracy/library.md.
+/// Returns the complete records of the clips with these numbers, in this order. They
+/// equal the written records. Cost: docs/accuracy/library.md.
 [[nodiscard]] Result<std::vector<ClipRecord>> read_library_records(
     const std::filesystem::path& index, std::span<const int> numbers);
 

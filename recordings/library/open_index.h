@@ -8,7 +8,7 @@
 #include "core/base/result.h"
 #include "recordings/base/sqlite.h"
 
-// Private to recordings/library: what its readers of library.sqlite share.
+// Private to recordings/library: functions shared by its readers of library.sqlite.
 namespace marey::recordings {
 
 /// SQLite's application_id of library.sqlite: "MLIB".

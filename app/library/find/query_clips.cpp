@@ -273,9 +273,8 @@ class QueryRun {
   Result<ClipSet> has(const QueryCondition& at) {
     const auto labels = vocabulary_.words(WordKind::kLabel);
     if (!labels) return labels.error();
-    const bool is_known = library::relation(at.value).has_value() ||
-                          std::binary_search(labels->begin(), labels->end(), at.value);
-    if (!is_known) {
+    const bool is_label = std::binary_search(labels->begin(), labels->end(), at.value);
+    if (!is_label && !library::relation(at.value)) {
       std::vector<std::string> known(labels->begin(), labels->end());
       for (int k = 0; k < library::kRelationCount; ++k) {
         known.emplace_back(library::name(static_cast<library::Relation>(k)));
@@ -286,7 +285,7 @@ class QueryRun {
           in_quotes(at.value) + " is no relation and no label of this library",
           nearest_suggestion(at.value, known));
     }
-    remark(WordKind::kLabel, at.value, at.value);
+    if (!is_label) remarks_.push_back(in_quotes(at.value) + " holds in no clip");
     return selector_.with_label(at.value, at.min_s);
   }
 

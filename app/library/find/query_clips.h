@@ -12,7 +12,7 @@ namespace marey::app {
 
 /// Result of a query.
 struct ClipQuery {
-  std::vector<int> numbers;  ///< Of the clips, ascending.
+  std::vector<int> numbers;  ///< Numbers of the selected clips, ascending.
   /// Values that no clip of the library has, with the nearest one: possible misspellings.
   std::vector<std::string> remarks;
 };

@@ -42,14 +42,14 @@ struct QueryCondition {
 /// A node of the tree of an expression.
 struct QueryNode {
   enum class Kind {
-    kAll,  ///< Of an empty expression.
+    kAll,  ///< An empty expression: all clips.
     kCondition,
     kAnd,
     kOr,
     kNot,
   };
   Kind kind = Kind::kAll;
-  QueryCondition condition;      ///< Of a kCondition.
+  QueryCondition condition;      ///< Only for kCondition.
   std::vector<QueryNode> parts;  ///< Two or more of kAnd and kOr, one of kNot.
 };
 

@@ -38,7 +38,7 @@ std::optional<std::size_t> forbidden_byte(std::string_view text) {
   return std::nullopt;
 }
 
-/// Returns the length of the operator at the beginning of a text; 0: there is none.
+/// Returns the length of the operator at the beginning of a text; 0: no operator.
 std::size_t operator_length(std::string_view text) {
   for (const std::string_view word : {"!=", "<=", ">=", "!~", "=", "<", ">", "~"}) {
     if (text.starts_with(word)) return word.size();

@@ -14,7 +14,7 @@
 
 namespace marey::app {
 
-/// What the word before a comparison means.
+/// Meaning of the word before a comparison.
 struct QueryWord {
   enum class Kind {
     kText,       ///< `text` of the record.

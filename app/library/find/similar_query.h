@@ -16,7 +16,7 @@ namespace marey::app {
 /// The motion that a search starts from.
 struct SimilarQuery {
   std::vector<float> rows;  ///< body_features(), kFeatureStride floats each.
-  std::string name;         ///< Of the clip, or the path of the file.
+  std::string name;         ///< Name of the clip, or path of the file.
   std::optional<int> clip;  ///< Number of the clip; nullopt: a file.
   bool has_range = false;   ///< A part was asked for.
 };
@@ -32,8 +32,8 @@ divide_range(const std::string& text);
 [[nodiscard]] Result<int> find_clip(const std::filesystem::path& library,
                                     const std::string& word);
 
-/// Returns the features of a motion file: those that a library has which is built from
-/// it. Errors: read_motion()'s, make_library_motion()'s, with the file.
+/// Returns the features of a motion file, equal to those of a library built from it.
+/// Errors: read_motion()'s, make_library_motion()'s, with the file.
 [[nodiscard]] Result<std::vector<float>> features_of_file(
     const std::filesystem::path& file);
 

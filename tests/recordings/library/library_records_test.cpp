@@ -36,7 +36,7 @@ std::string refusal_of_records(const fs::path& index) {
   return read ? std::string() : read.error().message();
 }
 
-TEST(LibraryRecords, AreThoseThatWereWritten) {
+TEST(LibraryRecords, EqualTheWrittenRecords) {
   const ScratchFolder folder;
   const fs::path index = folder / "library.sqlite";
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U}) {
@@ -82,7 +82,7 @@ TEST(LibraryRecords, KeepEveryTextAndOrder) {
   EXPECT_EQ((*read)[1].provenance.path, copy.provenance.path);
 }
 
-TEST(LibraryRecords, OfAnEmptyLibraryAreNone) {
+TEST(LibraryRecords, AreNoneInAnEmptyLibrary) {
   const ScratchFolder folder;
   ASSERT_TRUE(write_library_index(folder / "library.sqlite", {}));
   EXPECT_TRUE(read_library_records(folder / "library.sqlite")->empty());

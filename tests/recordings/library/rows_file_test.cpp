@@ -21,7 +21,7 @@ using testing::ScratchFolder;
 
 constexpr std::size_t kColumns = 3;
 
-/// Clips of 0 to 4 rows; the value tells the clip and the place.
+/// Clips of 0 to 4 rows; the value encodes the clip and the place.
 std::vector<std::vector<float>> some_clips(int count) {
   std::vector<std::vector<float>> out;
   for (int clip = 0; clip < count; ++clip) {
@@ -85,7 +85,7 @@ TEST(RowsFile, HasTheSameBytesForTheSameRows) {
   EXPECT_EQ(*read_file(folder / "a.idx"), *read_file(folder / "b.idx"));
 }
 
-TEST(RowsFile, OfASingleClipNeedsNoIndex) {
+TEST(RowsFile, NeedsNoIndexForASingleClip) {
   const ScratchFolder folder;
   const auto rows = some_clips(5).back();
   ASSERT_TRUE(write_file(folder / "clip.f32", rows_file_bytes(rows, kColumns)));

@@ -186,6 +186,10 @@ TEST_F(QueryClips, RemarksOnValuesThatNoClipHas) {
             std::string::npos)
       << query->remarks[0];
   EXPECT_TRUE(run_clip_query(library_.path(), "content=walk")->remarks.empty());
+  const auto relation = run_clip_query(library_.path(), "has(lying)");
+  ASSERT_TRUE(relation) << relation.error().message();
+  EXPECT_TRUE(relation->numbers.empty());
+  EXPECT_EQ(relation->remarks, std::vector<std::string>{"\"lying\" holds in no clip"});
 }
 
 TEST_F(QueryClips, NeverRunsAValue) {
