@@ -52,7 +52,7 @@ constexpr std::array<Word, 19> kNoSide{"upright",
                                        "playwright",
                                        "rightly"};
 
-// After these, or before those, left and right need not be sides.
+// Left and right may have another meaning after kBefore or before kAfter.
 constexpr std::array<Word, 1> kBefore{"all"};
 constexpr std::array<Word, 16> kAfter{"away",
                                       "now",
