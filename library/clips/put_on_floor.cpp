@@ -25,8 +25,8 @@ namespace marey::library {
 namespace {
 
 constexpr double kFloorShare = 0.05;
-// Of the ball over the ankle, compared with a foot that stands: above a foot that lands
-// on its heel, below the feet of a body that lies on its back.
+// Maximum rise of the ball over the ankle, more than that of a standing foot. A foot that
+// lands on its heel has less, the feet of a body that lies on its back have more.
 constexpr double kMaxRise_rad = 40.0 * kRadiansPerDegree;
 constexpr double kHalfGravity_m_s2 = 0.5 * 9.81;
 constexpr double kHalfSpan_s = 0.1;

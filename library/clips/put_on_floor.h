@@ -9,13 +9,12 @@
 
 namespace marey::library {
 
-/// Returns the world height (Y) of the floor under a motion, wherever its origin is. [m]
+/// Returns the world height (Y) of the floor under a motion, for any origin. [m]
 ///
 /// It is the 5 % quantile of the height of the lower sole (FootMap) over the frames in
-/// which a foot bears: retarget::detect_contacts() has a stance, the foot is
-/// below the hips and does not point up by more than 40 degrees, and the body does not
-/// fall. On stairs it is the
-/// lowest step on which at least 5 % of these frames stand.
+/// which a foot bears: retarget::detect_contacts() has a stance, the foot is below the
+/// hips and does not point up by more than 40 degrees, and the body does not fall. On
+/// stairs this is the lowest step on which at least 5 % of these frames stand.
 ///
 /// A body falls while its centre of mass accelerates downwards by more than half of
 /// gravity, over 0.2 s; in a motion shorter than that it never does.

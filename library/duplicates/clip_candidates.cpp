@@ -17,9 +17,11 @@ namespace {
 constexpr std::size_t kAnchorClipBlock = 256;
 constexpr std::size_t kMaxQueries = 5;
 // Near anchors per query.
-constexpr std::size_t kMaxHits = 12;
+constexpr std::size_t kMaxHits = 16;
 constexpr float kMaxAnchorDistance = 0.5F;
 constexpr double kMaxFirstMismatch = 2.5;
+// Limits for copies, and for motions on other bodies.
+constexpr double kMaxQuickCopy = 0.6;
 constexpr double kMaxQuickDifference = 0.45;
 // Same shift of two anchors of a pair of clips. [rows]
 constexpr double kSameShift = 1.0;
@@ -142,7 +144,8 @@ std::optional<ClipCandidate> CandidateSearch::compare_at(
         })) {
       continue;
     }
-    if (quick_difference(rows, others, shift) > kMaxQuickDifference) continue;
+    const double limit = is_same_body_ ? kMaxQuickCopy : kMaxQuickDifference;
+    if (quick_difference(rows, others, shift) > limit) continue;
     if (tried.empty()) prepare_clip(others, other_);
     tried.push_back(shift);
     const auto one = compare(original, shift, needed);

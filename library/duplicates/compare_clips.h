@@ -38,7 +38,7 @@ void prepare_clip(std::span<const float> rows, ComparedClip& out);
 struct ClipAgreement {
   /// Row t of the first clip is at row t + shift of the second one.
   double shift = 0.0;
-  int rows = 0;  ///< Of the first clip that the second one covers.
+  int rows = 0;  ///< Rows of the first clip within the second one.
   /// Mean distance of the features.
   double distance = 0.0;
   /// Mean change of the features within 0.1 s, mean of both clips.

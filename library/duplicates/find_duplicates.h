@@ -27,29 +27,31 @@ struct DuplicateClip {
 
 /// Finds the clips that repeat another one: the same motion in another file, at another
 /// rate or on another skeleton, a part of a longer clip, or a mirror image of either. At
-/// most one entry per clip, ascending by clip. Two clips of the same length: the later
-/// one is the duplicate. Of several originals the most similar one counts, unmirrored
-/// before mirrored, and if that is a duplicate itself, its original.
+/// most one entry per clip, ascending by clip. The later one of two clips of the same
+/// length is the duplicate; a part is the duplicate of the longer clip, also of a later
+/// one. The most similar one of several originals counts, unmirrored before mirrored. If
+/// that one is a duplicate itself, its original counts.
 ///
 /// The features of both clips, without the height of the hips (compare_clips()), must
 /// agree over `rule.min_cover_share` of the shorter clip. The starts of clips of the same
 /// length differ by at most `rule.max_shift_s`. Agreement is one of:
 ///
 /// - The mean distance is at most 0.005 + rule.max_distance times the mean change of the
-///   features within 0.1 s. A copy at another rate, or a cut between two instants of the
-///   features, differs by a part of a row. So does a repetition of a motion by the same
-///   person, but by more: see docs/accuracy/library_duplicates.md.
-/// - The bodies have other lengths, 1.2 s or more are common, and the courses differ by
-///   at most rule.max_body_distance (ClipAgreement::course). The nearest other clip that
-///   is no duplicate of the original differs by 1.25 times that.
+///   features within 0.1 s. A copy at another rate, or a cut between two instants of
+///   the features, differs by a part of a row. A repetition of a motion by the same
+///   person differs by more (docs/accuracy/library_duplicates.md).
+/// - The bodies have other lengths, 1.2 s or more are common, and the courses
+///   (ClipAgreement::course) differ by at most rule.max_body_distance over 10 s or more,
+///   0.67 times that over 4 s or less. The nearest other clip that is no duplicate of the
+///   original differs by 1.25 times as much.
 ///
 /// Candidates come from the anchors of the clips (library/duplicates/motion_anchors.h),
 /// not from all pairs. Clips without movement are compared only if all their features are
 /// equal.
 ///
 /// The same result for any number of threads. Cost: clips times sqrt(clips), figures in
-/// docs/accuracy/library_duplicates.md. Memory: about 360 bytes per anchor, of which
-/// there are two per second. Precondition: rows of kFeatureStride floats.
+/// docs/accuracy/library_duplicates.md. Memory: about 350 bytes per anchor; clips
+/// have two or three anchors per second. Precondition: rows of kFeatureStride floats.
 [[nodiscard]] std::vector<DuplicateClip> find_duplicates(const ClipRows& features,
                                                          const DuplicateRule& rule = {},
                                                          std::size_t threads = 1);

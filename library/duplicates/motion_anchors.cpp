@@ -32,7 +32,7 @@ constexpr int kApartRows = 3;
 constexpr int kFillRows = 5;
 // A clip with fewer extrema is searched by its middle rows, too.
 constexpr std::size_t kMinExtrema = 2;
-// Of all values of a still body. [L]
+// Length of the values of a still body. [L]
 constexpr float kMinChange = 0.005F;
 
 using Places = std::array<float, kPointFloats>;

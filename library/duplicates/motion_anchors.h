@@ -10,8 +10,8 @@ namespace marey::library {
 /// Floats that describe a motion near an anchor: 5 instants of 16.
 inline constexpr int kAnchorFloats = 80;
 
-/// Instants at which a copy of a motion is recognized, wherever it is cut, at whatever
-/// rate and on whatever body.
+/// Instants at which a copy of a motion is recognized, also a cut one, at another rate or
+/// on another body.
 struct MotionAnchors {
   /// Row of the features, with its fraction, ascending.
   std::vector<double> at;

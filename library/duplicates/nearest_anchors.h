@@ -58,7 +58,7 @@ class AnchorIndex {
  private:
   AnchorTable table_;  // In the order of the clusters.
   std::vector<float> centres_;
-  std::vector<std::size_t> begins_;  // Of each cluster, and the number of all anchors.
+  std::vector<std::size_t> begins_;  // First anchor of each cluster; last, all.
 };
 
 }  // namespace marey::library

@@ -52,7 +52,7 @@ constexpr std::array<Word, 19> kNoSide{"upright",
                                        "playwright",
                                        "rightly"};
 
-// After these, or before those, left and right need not be sides.
+// Left and right may have another meaning after kBefore or before kAfter.
 constexpr std::array<Word, 1> kBefore{"all"};
 constexpr std::array<Word, 16> kAfter{"away",
                                       "now",
@@ -160,7 +160,7 @@ Meaning meaning_of(std::string_view label,
         word.find("left") != std::string::npos || word.find("right") != std::string::npos;
     return names_side && !contains(kNoSide, word) ? Meaning::kUnknown : Meaning::kNone;
   }
-  if (word == "left" || word == "right") {
+  if ((word == "left" || word == "right") && !is_joined(label, words[k])) {
     const bool ambiguous = (has_before && contains(kBefore, words[k - 1].lower)) ||
                            (k + 1 < words.size() && contains(kAfter, words[k + 1].lower));
     if (ambiguous) return Meaning::kUnknown;

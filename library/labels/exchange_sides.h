@@ -13,7 +13,7 @@ namespace marey::library {
 /// stays, with upper and lower case. A label without a side is returned as it is.
 ///
 /// Words are runs of letters; a capital after a small letter begins a word ("turnLeft").
-/// A single l or r is a side beside "_", "." or ":" ("hand_l").
+/// A single l or r is a side next to "_", "." or ":" ("hand_l").
 ///
 /// nullopt: the label contains a side that is not understood: a word with "left" or
 /// "right" that is in no list ("leftish"), or one that has another meaning too ("left the

@@ -25,8 +25,9 @@ struct FoundLabels {
 /// - "cycle": from one start of a left stance to the frame before the next one
 ///   (find_cycles()).
 ///
-/// Runs shorter than 0.1 s are left out. Of each text at most 10 labels, and one more per
-/// second, are returned: the longest ones, of equal length the first.
+/// Runs shorter than 0.1 s are left out. At most 10 labels of a text, and one more per
+/// second of the clip, are returned: the longest ones, and the first ones of equal
+/// length.
 ///
 /// Events: "left.strike" in the first and "left.toe_off" in the last frame of a stance,
 /// right as well, unless the clip begins or ends within it (the names of contact events

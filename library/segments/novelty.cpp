@@ -3,6 +3,7 @@
 #include "library/segments/novelty.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -15,6 +16,7 @@ namespace marey::library {
 namespace {
 
 constexpr double kMinSigmas = 2.0;
+constexpr double kTaperRows = 5.0;
 
 }  // namespace
 
@@ -35,18 +37,27 @@ std::vector<double> novelty(std::span<const float> rows) {
     distances_of(rows.data() + t * kStride, size, kStride, rows.data() + t * kStride, to);
     for (std::size_t k = 0; k < size; ++k) to[k] = std::sqrt(to[k]);
   }
-  constexpr double kAcross = static_cast<double>(kSide) * static_cast<double>(kSide);
-  constexpr double kWithin = static_cast<double>(kSide * (kSide - 1));
+  // Weight of a row by its distance from the boundary.
+  std::array<double, kBand> weights{};
+  for (std::size_t k = 0; k < kBand; ++k) {
+    const double rows_off = static_cast<double>(k) + 0.5 - kNoveltyRows;
+    weights[k] = std::exp(-0.5 * rows_off * rows_off / (kTaperRows * kTaperRows));
+  }
   for (std::size_t t = kSide; t + kSide <= count; ++t) {
     double across = 0.0;
     double within = 0.0;
-    for (std::size_t i = t - kSide; i < t + kSide; ++i) {
-      for (std::size_t j = i + 1; j < t + kSide; ++j) {
-        const double distance = band[i * kBand + (j - i)];
-        (i < t && j >= t ? across : within) += distance;
+    double across_weights = 0.0;
+    double within_weights = 0.0;
+    for (std::size_t i = 0; i < kBand; ++i) {
+      for (std::size_t j = i + 1; j < kBand; ++j) {
+        const double weight = weights[i] * weights[j];
+        const double distance = weight * band[(t - kSide + i) * kBand + (j - i)];
+        const bool is_across = i < kSide && j >= kSide;
+        (is_across ? across : within) += distance;
+        (is_across ? across_weights : within_weights) += weight;
       }
     }
-    out[t] = across / kAcross - within / kWithin;
+    out[t] = across / across_weights - within / within_weights;
   }
   return out;
 }

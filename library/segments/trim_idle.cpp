@@ -15,9 +15,11 @@
 namespace marey::library {
 namespace {
 
-constexpr double kMinIdle_s = 0.5;
-constexpr double kKeptIdle_s = 0.25;
+constexpr double kMinStill_s = 0.5;
+constexpr double kKeptStill_s = 0.25;
 constexpr double kMinKept_s = 0.5;
+// Twice the half span of still_frames().
+constexpr double kJump_s = 0.2;
 
 // Number of frames from `t` on with a mark.
 int marked_from(const std::vector<char>& marks, int t) {
@@ -41,11 +43,18 @@ std::vector<IdleFrames> idle_at_start(const std::vector<char>& in_t_pose,
       t += length;
       continue;
     }
-    int length = marked_from(still, t);
-    if (length - 1 < kMinIdle_s * hz - 1e-9) break;
+    // A cut from the T-pose to another posture looks like a movement.
+    int moving = 0;
+    while (t > 0 && moving < kJump_s * hz && t + moving < count &&
+           still[static_cast<std::size_t>(t + moving)] == 0) {
+      ++moving;
+    }
+    int length = marked_from(still, t + moving);
+    if (length - 1 < kMinStill_s * hz - 1e-9) break;
+    length += moving;
     const int next = t + length;
     if (next < count) {
-      length -= static_cast<int>(std::lround(kKeptIdle_s * hz));
+      length -= static_cast<int>(std::lround(kKeptStill_s * hz));
     }
     if (length > 0) out.push_back({{t, t + length - 1}, "still"});
     break;

@@ -21,8 +21,8 @@ struct IdleFrames {
 struct TrimmedIdle {
   FrameRange kept;              ///< Poses of the motion.
   std::vector<IdleFrames> cut;  ///< Ascending, in poses of the motion.
-  /// One for each entry of `cut`, for the kept clip: at its first frame (0) for what was
-  /// cut before it, at its last frame for what was cut after it.
+  /// One for each entry of `cut`, in frames of the kept clip: 0 for a cut before it, its
+  /// last frame for a cut after it.
   std::vector<ClipEvent> events;
 };
 
