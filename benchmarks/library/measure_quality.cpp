@@ -193,9 +193,8 @@ MeasuredClip measure_clip(const fs::path& file, const Changes& changes) {
   out.frames = static_cast<int>(motion.poses.size());
   for (const Expected& one : expected()) {
     Measured measured;
-    const auto seed =
-        static_cast<unsigned>(hash_of(out.name)) + static_cast<unsigned>(one.defect) +
-        1000003U * changes.seed;
+    const auto seed = static_cast<unsigned>(hash_of(out.name)) +
+                      static_cast<unsigned>(one.defect) + 1000003U * changes.seed;
     const auto injected = testing::inject(clean->motion, one.defect, seed);
     if (injected) {
       const auto spoilt = library::make_library_motion(injected->motion);

@@ -5,9 +5,8 @@
 #include <span>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 #include "library/quality/found_figure.h"
+#include <glm/vec3.hpp>
 
 namespace marey::library {
 

@@ -20,10 +20,10 @@ struct ClipBody {
 
 /// A clip whose body has another size than in the other clips of the same person.
 struct ContradictedSize {
-  std::size_t clip = 0;     ///< Index in the clips.
-  double ratio = 0.0;       ///< Its stature over the usual one: 1.1 is 10 % too large.
-  double usual_m = 0.0;     ///< Median stature of the person's other clips. [m]
-  std::size_t others = 0;   ///< Clips with the usual stature.
+  std::size_t clip = 0;    ///< Index in the clips.
+  double ratio = 0.0;      ///< Its stature over the usual one: 1.1 is 10 % too large.
+  double usual_m = 0.0;    ///< Median stature of the person's other clips. [m]
+  std::size_t others = 0;  ///< Clips with the usual stature.
 };
 
 /// Limit of ContradictedSize::ratio, upwards and downwards.

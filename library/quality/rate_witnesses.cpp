@@ -25,16 +25,15 @@ bool is_resampled_copy(const RateWitnesses& witnesses) {
   if (!is_stated(witnesses.file_hz) || !is_stated(witnesses.table_duration_s)) {
     return false;
   }
-  const double off_s = witnesses.frames / *witnesses.file_hz -
-                       *witnesses.table_duration_s;
-  return std::abs(off_s) <= std::max(kSameDuration * *witnesses.table_duration_s,
-                                     2.0 / *witnesses.file_hz);
+  const double off_s =
+      witnesses.frames / *witnesses.file_hz - *witnesses.table_duration_s;
+  return std::abs(off_s) <=
+         std::max(kSameDuration * *witnesses.table_duration_s, 2.0 / *witnesses.file_hz);
 }
 
 const ClipFigure* find(std::span<const ClipFigure> figures, std::string_view name) {
-  const auto found = std::find_if(figures.begin(), figures.end(), [&](const auto& one) {
-    return one.name == name;
-  });
+  const auto found = std::find_if(
+      figures.begin(), figures.end(), [&](const auto& one) { return one.name == name; });
   return found == figures.end() ? nullptr : &*found;
 }
 
