@@ -13,7 +13,7 @@ namespace {
 constexpr double kSameRate = 1.01;
 constexpr double kSameDuration = 0.02;
 
-double ratio_of(double a, double b) {
+double ratio_of_rates(double a, double b) {
   return std::max(a / b, b / a);
 }
 
@@ -31,7 +31,8 @@ bool is_resampled_copy(const RateWitnesses& witnesses) {
          std::max(kSameDuration * *witnesses.table_duration_s, 2.0 / *witnesses.file_hz);
 }
 
-const ClipFigure* find(std::span<const ClipFigure> figures, std::string_view name) {
+const ClipFigure* figure_named(std::span<const ClipFigure> figures,
+                               std::string_view name) {
   const auto found = std::find_if(
       figures.begin(), figures.end(), [&](const auto& one) { return one.name == name; });
   return found == figures.end() ? nullptr : &*found;
@@ -62,7 +63,7 @@ std::optional<StatedRate> choose_rate(const RateWitnesses& witnesses) {
   int agreeing = 0;
   for (const auto& hz : {stated.file_hz, stated.table_hz, stated.option_hz}) {
     if (!is_stated(hz)) continue;
-    const double ratio = ratio_of(*hz, out.hz);
+    const double ratio = ratio_of_rates(*hz, out.hz);
     if (ratio <= kSameRate) {
       ++agreeing;
     } else {
@@ -80,9 +81,10 @@ std::string_view name(RateTrust trust) {
 }
 
 RateTrust rate_trust(std::span<const ClipFigure> figures) {
-  if (is_warned(find(figures, "rate_stated_ratio"))) return RateTrust::kContradicted;
-  const ClipFigure* flights = find(figures, "flights");
-  const ClipFigure* ratio = find(figures, "rate_ratio");
+  if (is_warned(figure_named(figures, "rate_stated_ratio")))
+    return RateTrust::kContradicted;
+  const ClipFigure* flights = figure_named(figures, "flights");
+  const ClipFigure* ratio = figure_named(figures, "rate_ratio");
   if (flights == nullptr || ratio == nullptr || flights->value < 2.0) {
     return RateTrust::kStated;
   }
