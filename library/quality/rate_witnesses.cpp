@@ -76,7 +76,7 @@ std::optional<StatedRate> choose_rate(const RateWitnesses& witnesses) {
 
 std::string_view name(RateTrust trust) {
   constexpr std::array<std::string_view, 4> kNames{
-      "stated", "proven", "doubted", "contradicted"};
+      "stated", "proven", "implausible", "contradicted"};
   return kNames[static_cast<std::size_t>(trust)];
 }
 
@@ -88,7 +88,7 @@ RateTrust rate_trust(std::span<const ClipFigure> figures) {
   if (flights == nullptr || ratio == nullptr || flights->value < 2.0) {
     return RateTrust::kStated;
   }
-  return is_warned(ratio) ? RateTrust::kDoubted : RateTrust::kProven;
+  return is_warned(ratio) ? RateTrust::kImplausible : RateTrust::kProven;
 }
 
 }  // namespace marey::library

@@ -49,7 +49,7 @@ TEST(RateWitnesses, TrustFollowsFromTheFigures) {
   figures[0].value = 2.0;
   EXPECT_EQ(rate_trust(figures), RateTrust::kProven);
   figures[1].verdict = Verdict::kFail;
-  EXPECT_EQ(rate_trust(figures), RateTrust::kDoubted);
+  EXPECT_EQ(rate_trust(figures), RateTrust::kImplausible);
   figures.push_back({"rate_stated_ratio", 2.0, Verdict::kFail, "", std::nullopt});
   EXPECT_EQ(rate_trust(figures), RateTrust::kContradicted);
   EXPECT_EQ(name(rate_trust(figures)), "contradicted");
