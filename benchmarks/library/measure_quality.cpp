@@ -298,7 +298,7 @@ double figure_of(const library::QualityResult& result, std::string_view name) {
   return 0.0;
 }
 
-// One clip of every ten is scaled by 1.1. The ten are of one subject, or of nobody known.
+// One clip of every ten is scaled by 1.1. The subjects are known, or not.
 void print_sizes(const std::vector<MeasuredClip>& clips) {
   for (const bool named : {true, false}) {
     std::vector<library::ClipBody> bodies;

@@ -25,8 +25,8 @@ constexpr double kRatioSigma = 0.15;
 
 double stature_m(const retarget::BodyMap& map) {
   const Proportions average = average_proportions(1.0);
-  return map.leg_length_m / (glm::length(average[B::kLeftLowerLeg]) +
-                             glm::length(average[B::kLeftFoot]));
+  return map.leg_length_m /
+         (glm::length(average[B::kLeftLowerLeg]) + glm::length(average[B::kLeftFoot]));
 }
 
 double proportions(const QualityFrames& frames, const retarget::BodyMap& map) {
@@ -35,13 +35,12 @@ double proportions(const QualityFrames& frames, const retarget::BodyMap& map) {
   if (!map.limbs[0] || !map.limbs[1] || !map.spine || left.empty() || right.empty()) {
     return 0.0;
   }
-  const std::array length_m{
-      map.leg(0).upper_length_m + map.leg(1).upper_length_m,
-      map.leg(0).lower_length_m + map.leg(1).lower_length_m,
-      map.limbs[0]->upper_length_m + map.limbs[1]->upper_length_m,
-      map.limbs[0]->lower_length_m + map.limbs[1]->lower_length_m,
-      map.spine->length_m,
-      glm::distance(left.p_in_world[0], right.p_in_world[0])};
+  const std::array length_m{map.leg(0).upper_length_m + map.leg(1).upper_length_m,
+                            map.leg(0).lower_length_m + map.leg(1).lower_length_m,
+                            map.limbs[0]->upper_length_m + map.limbs[1]->upper_length_m,
+                            map.limbs[0]->lower_length_m + map.limbs[1]->lower_length_m,
+                            map.spine->length_m,
+                            glm::distance(left.p_in_world[0], right.p_in_world[0])};
   // Two persons have the same sum by chance only.
   constexpr std::array kWeights{1.0, -1.7, 2.3, -2.9, 3.1, -1.8};
   double sum = 0.0;

@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/geometric.hpp>
-
 #include "library/quality/quality_frames.h"
+#include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
 
@@ -50,9 +49,10 @@ FoundFigure bone_length_range_mm(
     }
     out.places.insert(out.places.end(), places.begin(), places.end());
   }
-  std::stable_sort(out.places.begin(), out.places.end(), [](const auto& a, const auto& b) {
-    return a.frames.first < b.frames.first;
-  });
+  std::stable_sort(
+      out.places.begin(), out.places.end(), [](const auto& a, const auto& b) {
+        return a.frames.first < b.frames.first;
+      });
   return out;
 }
 

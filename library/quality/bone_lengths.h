@@ -5,14 +5,14 @@
 #include <span>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 #include "library/quality/found_figure.h"
+#include <glm/vec3.hpp>
 
 namespace marey::library {
 
-/// Measures "bones_mm", an outside figure of measure_quality(): the largest range (the
-/// maximum less the minimum over the frames) of the length of one bone in what was read.
+/// Measures "bones_mm", an outside figure of measure_quality(): the range of the
+/// length of one bone over the frames of a file, maximum less minimum; the largest of the
+/// bones.
 /// A library's motion has constant lengths, which a reader takes from the rest pose, so
 /// the reader must hand over the translations that it read. [mm]
 ///

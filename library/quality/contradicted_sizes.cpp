@@ -15,7 +15,7 @@ constexpr double kSameProportions = 0.001;
 constexpr double kSameSize = 1.01;
 constexpr std::size_t kMinClips = 3;
 
-double ratio_of(double a, double b) {
+double ratio_of_sizes(double a, double b) {
   return std::max(a / b, b / a);
 }
 
@@ -28,11 +28,11 @@ void compare_group(std::span<const ClipBody> clips,
   const double usual_m = quantile_in_place(statures_m, 0.5);
   const auto agreeing = static_cast<std::size_t>(
       std::count_if(group.begin(), group.end(), [&](std::size_t k) {
-        return ratio_of(clips[k].stature_m, usual_m) <= kSameSize;
+        return ratio_of_sizes(clips[k].stature_m, usual_m) <= kSameSize;
       }));
   if (2 * agreeing <= group.size()) return;
   for (const std::size_t k : group) {
-    if (ratio_of(clips[k].stature_m, usual_m) <= kMaxSizeRatio) continue;
+    if (ratio_of_sizes(clips[k].stature_m, usual_m) <= kMaxSizeRatio) continue;
     out.push_back({k, clips[k].stature_m / usual_m, usual_m, agreeing});
   }
 }
@@ -84,7 +84,8 @@ std::vector<ContradictedSize> find_contradicted_sizes(std::span<const ClipBody> 
 }
 
 ClipProblem problem_of(const ContradictedSize& size, int frame_count) {
-  return {{0, std::max(0, frame_count - 1)}, "scale", "", ratio_of(size.ratio, 1.0)};
+  return {
+      {0, std::max(0, frame_count - 1)}, "scale", "", ratio_of_sizes(size.ratio, 1.0)};
 }
 
 }  // namespace marey::library

@@ -157,12 +157,9 @@ double score_of_cut(const Steps& steps, int t, double needed) {
     if (!is_large(q_m[i])) continue;
     if (std::max(q_m[i - 1], q_m[i + 1]) > kRegular * q_m[i]) continue;
     scores[count++] =
-        q_m[i] / (kCutScale_m + 3.0 * quantile_around(q_m,
-                                                      t,
-                                                      kCutReach,
-                                                      kCutReach,
-                                                      steps.last,
-                                                      kCutQuantile));
+        q_m[i] /
+        (kCutScale_m +
+         3.0 * quantile_around(q_m, t, kCutReach, kCutReach, steps.last, kCutQuantile));
   }
   if (count < kCutJoints) return 0.0;
   std::nth_element(scores.begin(),

@@ -32,8 +32,8 @@ FoundFigure measure_slide(const QualityFrames& frames, double warn) {
   constexpr double kNone = std::numeric_limits<double>::max();
   std::vector<double> slower(count, kNone);
   scratch.clear();
-  const auto reach = static_cast<std::size_t>(
-      std::max(1L, std::lround(kStep_s * frames.hz)));
+  const auto reach =
+      static_cast<std::size_t>(std::max(1L, std::lround(kStep_s * frames.hz)));
   for (std::size_t t = reach; t + reach < count; ++t) {
     for (std::size_t s = 0; s < 2; ++s) {
       const auto& ball = frames.ball_in_world[s];
@@ -42,8 +42,8 @@ FoundFigure measure_slide(const QualityFrames& frames, double warn) {
       const double step_m =
           std::min(glm::distance(level(ball[t + reach]), level(ball[t])),
                    glm::distance(level(ball[t]), level(ball[t - reach])));
-      slower[t] = std::min(
-          slower[t], 100.0 * frames.hz * step_m / static_cast<double>(reach));
+      slower[t] =
+          std::min(slower[t], 100.0 * frames.hz * step_m / static_cast<double>(reach));
     }
     if (slower[t] < kNone) scratch.push_back(slower[t]);
   }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
@@ -17,9 +18,11 @@ namespace {
 constexpr double kHeightError_m = 0.0006;
 constexpr double kSlow_legs_s = 0.3;
 constexpr double kMinSlow_s = 1.0 / 30.0;
+constexpr double kSamePlace_m = 0.03;
 constexpr double kStepError = 0.5;
 constexpr double kSideError_m = 0.0001;
 constexpr double kSideErrors = 0.5;
+constexpr double kSideScatter = 1.0;
 // Slopes are rarely larger. It keeps a direction without support at 0.
 constexpr double kPriorSlope = 0.05;
 constexpr double kSureErrors = 2.75;
@@ -38,9 +41,24 @@ struct StillPlace {
   bool is_ball = false;
   glm::dvec3 mean{0.0};
   double moved_m = 0.0;  ///< Error by its movement.
+  double count = 0.0;    ///< Steps.
 
   [[nodiscard]] double error_m() const { return std::hypot(kHeightError_m, moved_m); }
 };
+
+// Adds a place, or joins it to the last one of the same part if that is near: movements
+// of one stance are not independent.
+void add(const StillPlace& place, bool is_new, std::vector<StillPlace>& out) {
+  if (is_new || glm::distance(out.back().mean, place.mean) > kSamePlace_m) {
+    out.push_back(place);
+    return;
+  }
+  StillPlace& last = out.back();
+  const double share = place.count / (last.count + place.count);
+  last.mean = glm::mix(last.mean, place.mean, share);
+  last.moved_m += share * (place.moved_m - last.moved_m);
+  last.count += place.count;
+}
 
 // Places of heels and balls at rest, at any height: on a tilted floor the heights of
 // contacts differ by more than a detector of contacts accepts. They are runs of slow
@@ -49,6 +67,7 @@ std::vector<StillPlace> still_places(const QualityFrames& frames) {
   std::vector<StillPlace> out;
   const double max_step_m = kSlow_legs_s * frames.leg_m / frames.hz;
   const double min_steps = std::max(1.0, std::round(kMinSlow_s * frames.hz));
+  int last_part = -1;
   for (int part = 0; part < 4; ++part) {
     const std::vector<glm::dvec3>& path =
         part % 2 == 0 ? frames[foot_of(part / 2)].p_in_world
@@ -67,7 +86,9 @@ std::vector<StillPlace> still_places(const QualityFrames& frames) {
       if (count < min_steps) continue;
       place.mean /= count;
       place.moved_m = kStepError * way_m / count * min_steps;
-      out.push_back(place);
+      place.count = count;
+      add(place, part != last_part, out);
+      last_part = part;
     }
   }
   return out;
@@ -180,20 +201,22 @@ double slope_of_places_rad(const std::vector<StillPlace>& places) {
                              : std::max(1.0,
                                         1.4826 * quantile_in_place(scratch, 0.5) *
                                             std::sqrt(count / (count - kTerms)));
+    // Feet whose own heights differ from step to step also differ from each other.
+    const double scattered_m = kSideScatter * (scale - 1.0) * kHeightError_m;
     for (std::size_t k = 0; k < places.size(); ++k) {
       const double ratio = errors[k] / (kOutlier * scale);
       const double error_m = scale * places[k].error_m() * std::max(1.0, ratio);
       weights[k] = 1.0 / (error_m * error_m);
     }
-    plane = fit_plane(places, weights, origin, side_error_m);
+    plane = fit_plane(places, weights, origin, side_error_m + scattered_m);
   }
   const glm::dvec2 slope(plane.terms[3], plane.terms[4]);
   const double xx = plane.covariance[3][3];
   const double zz = plane.covariance[4][4];
   const double xz = plane.covariance[3][4];
-  const double squared = (zz * slope.x * slope.x - 2.0 * xz * slope.x * slope.y +
-                          xx * slope.y * slope.y) /
-                         (xx * zz - xz * xz);
+  const double squared =
+      (zz * slope.x * slope.x - 2.0 * xz * slope.x * slope.y + xx * slope.y * slope.y) /
+      (xx * zz - xz * xz);
   const double sure = std::sqrt(std::max(0.0, squared));
   if (sure <= kSureErrors) return 0.0;
   return std::atan(glm::length(slope)) * (1.0 - kSureErrors / sure);

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/library/clip_record.h"
 #include "library/quality/found_figure.h"
 
+#include "core/library/clip_record.h"
 #include "core/library/library_motion.h"
 #include "core/library/library_settings.h"
 #include "retarget/body/body_map.h"

@@ -17,8 +17,8 @@ struct FigureRule {
   std::string_view kind;    ///< ClipProblem::kind of its problems.
   double warn = 0.0;        ///< Above this value a warning,
   double fail = 0.0;        ///< and above this one a failure. Both 0: only reported.
-  /// Not measured from the motion: whoever reads or solves it passes the figure to
-  /// measure_quality(), and a clip without it has none.
+  /// True: the figure does not follow from the motion. Its reader or solver passes it to
+  /// measure_quality(); other clips do not have it.
   bool is_outside = false;
 
   [[nodiscard]] bool has_verdict() const { return fail > 0.0; }

@@ -13,7 +13,7 @@ namespace {
 constexpr double kSameRate = 1.01;
 constexpr double kSameDuration = 0.02;
 
-double ratio_of(double a, double b) {
+double ratio_of_rates(double a, double b) {
   return std::max(a / b, b / a);
 }
 
@@ -21,7 +21,8 @@ bool is_stated(const std::optional<double>& hz) {
   return hz && *hz > 0.0 && std::isfinite(*hz);
 }
 
-const ClipFigure* find(std::span<const ClipFigure> figures, std::string_view name) {
+const ClipFigure* figure_named(std::span<const ClipFigure> figures,
+                               std::string_view name) {
   const auto found = std::find_if(
       figures.begin(), figures.end(), [&](const auto& one) { return one.name == name; });
   return found == figures.end() ? nullptr : &*found;
@@ -62,7 +63,7 @@ std::optional<StatedRate> choose_rate(const RateWitnesses& witnesses) {
   int agreeing = 0;
   for (const auto& hz : {stated.file_hz, stated.table_hz, stated.option_hz}) {
     if (!is_stated(hz)) continue;
-    const double ratio = ratio_of(*hz, out.hz);
+    const double ratio = ratio_of_rates(*hz, out.hz);
     if (ratio <= kSameRate) {
       ++agreeing;
     } else {
@@ -75,18 +76,19 @@ std::optional<StatedRate> choose_rate(const RateWitnesses& witnesses) {
 
 std::string_view name(RateTrust trust) {
   constexpr std::array<std::string_view, 4> kNames{
-      "stated", "proven", "doubted", "contradicted"};
+      "stated", "proven", "implausible", "contradicted"};
   return kNames[static_cast<std::size_t>(trust)];
 }
 
 RateTrust rate_trust(std::span<const ClipFigure> figures) {
-  if (is_warned(find(figures, "rate_stated_ratio"))) return RateTrust::kContradicted;
-  const ClipFigure* flights = find(figures, "flights");
-  const ClipFigure* ratio = find(figures, "rate_ratio");
+  if (is_warned(figure_named(figures, "rate_stated_ratio")))
+    return RateTrust::kContradicted;
+  const ClipFigure* flights = figure_named(figures, "flights");
+  const ClipFigure* ratio = figure_named(figures, "rate_ratio");
   if (flights == nullptr || ratio == nullptr || flights->value < 2.0) {
     return RateTrust::kStated;
   }
-  return is_warned(ratio) ? RateTrust::kDoubted : RateTrust::kProven;
+  return is_warned(ratio) ? RateTrust::kImplausible : RateTrust::kProven;
 }
 
 }  // namespace marey::library

@@ -20,7 +20,7 @@ struct RateWitnesses {
   /// Duration of the motion by an index table: a table of original recordings may
   /// describe a file at another rate. [s]
   std::optional<double> table_duration_s = std::nullopt;
-  int frames = 0;  ///< Of the file.
+  int frames = 0;  ///< Number of frames in the file.
 };
 
 /// The rate of a motion, and its contradictions.
@@ -47,16 +47,16 @@ struct StatedRate {
 enum class RateTrust {
   kStated,        ///< Nothing but statements: the clip has fewer than two flights.
   kProven,        ///< Gravity in two or more flights agrees with the rate and the scale.
-  kDoubted,       ///< Gravity in flights disagrees: wrong rate or wrong scale.
+  kImplausible,   ///< Gravity in flights disagrees: wrong rate or wrong scale.
   kContradicted,  ///< Statements disagree.
 };
 
-/// Returns the word for tables and queries: "stated", "proven", "doubted",
-/// "contradicted".
+/// Returns the word for tables and queries: "stated", "proven",
+/// "implausible", "contradicted".
 [[nodiscard]] std::string_view name(RateTrust trust);
 
 /// Returns it for the figures of a clip ("flights", "rate_ratio", "rate_stated_ratio"):
-/// contradicted before doubted before proven. Missing figures count as unknown.
+/// contradicted before implausible before proven. Missing figures count as unknown.
 [[nodiscard]] RateTrust rate_trust(std::span<const ClipFigure> figures);
 
 }  // namespace marey::library

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "library/quality/measure_quality.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -39,12 +40,12 @@ TEST(MeasureQuality, AWalkPasses) {
   EXPECT_EQ(result.quality, Verdict::kPass) << result.main_kind;
 }
 
-// The score is the displacement over 8 mm if nothing else moves.
+// The score is the displacement over 16 mm if nothing else moves.
 TEST(MeasureQuality, ASpikeHasItsScoreAndFrame) {
   LibraryMotion clip = standing_clip(60, 30.0);
   clip.motion.poses[30].root_in_world.x += 0.1;
   const ClipFigure spike = figure(measured(clip), "spike");
-  EXPECT_NEAR(spike.value, 0.1 / 0.008, 1e-6);
+  EXPECT_NEAR(spike.value, 0.1 / 0.016, 1e-6);
   EXPECT_EQ(spike.frames->first, 30);
   EXPECT_EQ(spike.frames->last, 30);
   EXPECT_EQ(spike.verdict, Verdict::kFail);
@@ -130,13 +131,60 @@ TEST(MeasureQuality, OwnLimitsReplaceTheDefaults) {
   EXPECT_EQ(measure_quality(clip, *map, strict).quality, Verdict::kFail);
 }
 
+// Figures of readers and solvers are judged by the same table.
+TEST(MeasureQuality, OutsideFiguresHaveVerdictsAndProblems) {
+  const LibraryMotion clip = standing_clip(60, 30.0);
+  const auto map = retarget::map_body(clip.motion.skeleton);
+  ASSERT_TRUE(map.has_value());
+  std::vector<FoundFigure> outside{{"residual_mm", 20.0}, {"bones_mm", 1.0}};
+  const QualityResult result = measure_quality(clip, *map, {}, outside);
+  EXPECT_EQ(result.quality, Verdict::kWarn);
+  EXPECT_EQ(result.main_kind, "residual");
+  EXPECT_EQ(figure(result, "residual_mm").verdict, Verdict::kWarn);
+  EXPECT_EQ(figure(result, "bones_mm").verdict, Verdict::kPass);
+  ASSERT_EQ(result.problems.size(), 1U);
+  EXPECT_EQ(result.problems[0].frames.first, 0);
+  EXPECT_EQ(result.problems[0].frames.last, 59);
+  outside[1].value = 16.0;
+  outside[1].places.push_back({{3, 7}, HumanBone::kLeftHand, 16.0});
+  const QualityResult broken = measure_quality(clip, *map, {}, outside);
+  EXPECT_EQ(broken.quality, Verdict::kFail);
+  EXPECT_EQ(broken.problems.size(), 2U);
+}
+
+TEST(MeasureQuality, ReportsSizeDurationAndSpeed) {
+  LibraryMotion clip = standing_clip(61, 30.0, 1.8);
+  for (int t = 0; t < 61; ++t) {
+    clip.motion.poses[static_cast<std::size_t>(t)].root_in_world.z += 1.5 * t / 30.0;
+  }
+  const QualityResult result = measured(clip);
+  EXPECT_NEAR(figure(result, "stature_m").value, 1.8, 1e-6);
+  EXPECT_NEAR(figure(result, "seconds").value, 2.0, 1e-9);
+  EXPECT_NEAR(figure(result, "speed_m_s").value, 1.5, 1e-9);
+}
+
+// The same person at another size has the same proportions.
+TEST(MeasureQuality, ProportionsDoNotDependOnTheSize) {
+  const LibraryMotion clip = walking_clip(30, 30.0);
+  LibraryMotion large = clip;
+  large.motion = scaled(clip.motion, 1.1);
+  const QualityResult a = measured(clip);
+  const QualityResult b = measured(large);
+  EXPECT_NEAR(figure(a, "proportions").value, figure(b, "proportions").value, 1e-9);
+  EXPECT_NE(figure(a, "proportions").value, 0.0);
+  EXPECT_NEAR(figure(b, "stature_m").value, 1.1 * figure(a, "stature_m").value, 1e-9);
+}
+
 // Every figure exists and is finite, however short the motion.
 TEST(MeasureQuality, ShortMotionsAndMotionsWithoutContacts) {
   for (const int frames : {1, 2, 3, 5, 8, 12, 20}) {
     LibraryMotion clip = walking_clip(frames, 30.0);
     clip.contacts.assign(clip.contacts.size(), FootParts{});
     const QualityResult result = measured(clip);
-    EXPECT_EQ(result.figures.size(), figure_rules().size());
+    const auto inside = std::count_if(figure_rules().begin(),
+                                      figure_rules().end(),
+                                      [](const auto& rule) { return !rule.is_outside; });
+    EXPECT_EQ(static_cast<std::ptrdiff_t>(result.figures.size()), inside);
     for (const ClipFigure& one : result.figures) {
       EXPECT_TRUE(std::isfinite(one.value)) << one.name << " " << frames;
     }
