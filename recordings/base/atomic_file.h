@@ -72,7 +72,7 @@ class AtomicFile {
 };
 
 /// Removes all partial files below `folder` that killed processes of this user left.
-/// Those of running processes stay. Linear in files.
+/// Files of running processes stay. Linear in files.
 void remove_abandoned_files(const std::filesystem::path& folder);
 
 /// Calls `visit` with the path of each partial file that this process is writing. Only

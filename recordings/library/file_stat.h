@@ -17,7 +17,7 @@ struct FileStat {
   bool operator==(const FileStat&) const = default;
 };
 
-/// Returns the state of the file at `path`; nullopt: there is none.
+/// Returns the state of the file at `path`; nullopt: no such file.
 [[nodiscard]] std::optional<FileStat> stat_file(const std::filesystem::path& path);
 
 }  // namespace marey::recordings

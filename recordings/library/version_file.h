@@ -17,7 +17,7 @@ namespace marey::recordings {
 /// State of one clip in a version of a library.
 struct VersionLine {
   std::string clip_id;
-  std::string object_key;  ///< Of its motion.
+  std::string object_key;  ///< Key of its motion.
   std::string quality;     ///< "pass", "warn" or "fail".
   std::string labels;      ///< First 16 digits of the SHA-256 of its labels.
   std::string state;       ///< First 16 digits of the SHA-256 of the rest of its record.

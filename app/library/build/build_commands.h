@@ -17,11 +17,11 @@ namespace marey::app {
 struct LibraryBuildArguments {
   std::filesystem::path library;
   int jobs = 0;    ///< Processes; 0: one per core.
-  int shards = 0;  ///< Of a plan.
+  int shards = 0;  ///< Number of shards of a plan.
   int shard = 0;   ///< To work on, from 1.
   bool slurm = false;
   bool json = false;
-  AddSourcesArguments added;  ///< Of `add`; `library` is the same.
+  AddSourcesArguments added;  ///< Arguments of `add`, without its library.
 };
 
 /// Brings a library up to date. Exit code 4 if a source gave nothing.

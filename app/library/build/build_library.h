@@ -20,8 +20,8 @@ struct BuiltLibrary {
   std::size_t sources = 0;
   std::size_t read = 0;         ///< Sources that this build read.
   std::vector<Error> failures;  ///< Sources that gave nothing, by name.
-  /// Of readers and of the merge. A remark on several sources occurs once, with their
-  /// number and the first one.
+  /// Remarks of readers and of the merge. A remark on several sources occurs once, with
+  /// their number and the first one.
   std::vector<std::string> remarks;
 };
 

@@ -17,7 +17,8 @@ struct SourceClips {
   /// Without names, provenance and everything that depends on other clips.
   std::vector<ClipRecord> records;
   /// Bytes of a file of rows (recordings/library/rows_file.h): features of the bodies'
-  /// motions, one body after another. feature_rows() tells those of a clip.
+  /// motions, one body after another. CollectedRecords::first_rows has the first row of
+  /// each clip.
   std::string features;
 };
 

@@ -14,7 +14,7 @@
 namespace marey::app {
 
 struct MergedLibrary {
-  recordings::IndexHead head;  ///< Of the index.
+  recordings::IndexHead head;  ///< Head of the index.
   bool is_new_version = false;
   bool was_current = false;  ///< Nothing changed, and nothing was written.
   std::vector<std::string> remarks;

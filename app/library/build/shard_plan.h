@@ -33,7 +33,7 @@ struct ShardPlan {
                                       const ShardPlan& plan,
                                       const std::vector<std::vector<SourceFile>>& lists);
 
-/// Reads the plan. Errors (kBadInput): there is none; it is damaged.
+/// Reads the plan. Errors (kBadInput): no plan; a damaged one.
 [[nodiscard]] Result<ShardPlan> read_shard_plan(const std::filesystem::path& library);
 
 /// Reads the sources of one shard, from 1. Errors (kBadInput): there is no such shard; it

@@ -16,7 +16,7 @@ namespace marey::app {
 struct SourceOutcome {
   std::string name;       ///< SourceFile::name.
   std::string source_id;  ///< Empty: it could not be read.
-  std::string clips_key;  ///< Of the records and features of its clips; empty: none.
+  std::string clips_key;  ///< Key of its clips' records and features; empty: none.
   std::optional<Error> failure;
   std::vector<std::string> remarks;
   bool was_read = false;  ///< The source was read: its motion was no object yet.

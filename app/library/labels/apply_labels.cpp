@@ -23,7 +23,7 @@ auto order_of(const ClipLabel& label) {
   return std::tie(label.start_s, label.text, label.end_s, label.by, label.certainty);
 }
 
-/// Returns the part of a label that is in a clip; nullopt: there is none. `begin_s` is
+/// Returns the part of a label that is in a clip; nullopt: no part is. `begin_s` is
 /// the time of the clip's first frame on the label's clock.
 std::optional<ClipLabel> part_in(const LabelRow& row,
                                  const ClipRecord& clip,

@@ -23,7 +23,7 @@ struct IndexEntry {
   std::string description;
   std::vector<std::string> labels;
   std::string subject;
-  std::optional<double> duration_s;  ///< Of the original recording.
+  std::optional<double> duration_s;  ///< Duration of the original recording.
   int line = 0;                      ///< In the table; 0: several lines agree.
   /// Evidence for the rate, for remarks: "line 3 of data.csv", or "78 lines of data.csv
   /// with \"salsa\"".

@@ -187,7 +187,7 @@ class PartCollector {
   }
 
   /// Adds a file of a session by its path in the session's folder. It is part of the id,
-  /// because it tells which camera and trial a video belongs to.
+  /// because camera and trial of a video follow from it.
   Status add_by_name(const fs::path& folder, const fs::path& path) {
     const fs::path below = path.lexically_relative(folder);
     const bool is_below = !below.empty() && *below.begin() != "..";

@@ -59,7 +59,7 @@ TEST(VersionFile, RefusesADamagedLine) {
   }
 }
 
-TEST(VersionFile, TellsWhatChanged) {
+TEST(VersionFile, NamesTheChangesOfEachClip) {
   const auto before = version_lines({versioned_clip("a"),
                                      versioned_clip("b"),
                                      versioned_clip("c"),

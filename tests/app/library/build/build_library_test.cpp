@@ -10,9 +10,9 @@
 #include <thread>
 #include <vector>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -102,7 +102,7 @@ TEST(LibraryBuild, ReadsNoSourceAgainIfNothingChanged) {
   EXPECT_EQ(built_files(library), before);
 }
 
-TEST(LibraryBuild, ReadsOnlyWhatChanged) {
+TEST(LibraryBuild, ReadsOnlyChangedSources) {
   const WalkLibrary walks(3);
   const fs::path library = walks.make("library");
   ASSERT_EQ(build(library).exit_code, 0);
@@ -142,12 +142,12 @@ TEST(LibraryBuild, OneBadSourceCostsOnlyItself) {
   ASSERT_EQ(failures.size(), 1U);
   EXPECT_NE(failures[0].at("where").get<std::string>().find("broken.bvh"),
             std::string::npos);
-  std::string told;
+  std::string reasons;
   for (const auto& entry : fs::recursive_directory_iterator(library / "failed")) {
-    if (entry.is_regular_file()) told += read_text(entry.path());
+    if (entry.is_regular_file()) reasons += read_text(entry.path());
   }
-  EXPECT_NE(told.find("broken.bvh"), std::string::npos) << told;
-  EXPECT_NE(told.find("Next:"), std::string::npos) << told;
+  EXPECT_NE(reasons.find("broken.bvh"), std::string::npos) << reasons;
+  EXPECT_NE(reasons.find("Next:"), std::string::npos) << reasons;
   // The failure is remembered, and goes with its source.
   EXPECT_EQ(result(build(library)).at("sources_read"), 0);
   fs::remove(walks.walks() / "broken.bvh");

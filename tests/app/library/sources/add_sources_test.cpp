@@ -16,7 +16,7 @@
 namespace marey::app {
 namespace {
 
-/// A library's folder beside two folders of files.
+/// A library's folder next to two folders of files.
 class AddSources : public ::testing::Test {
  protected:
   void SetUp() override {

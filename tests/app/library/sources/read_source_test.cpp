@@ -111,7 +111,7 @@ TEST(ReadSource, ReadsVrmaAndMotionObjects) {
   }
 }
 
-/// Returns the figure on contradictions between stated rates; 0: there is none.
+/// Returns the figure on contradictions between stated rates; 0: no such figure.
 double stated_ratio(const SourceMotion& motion) {
   for (const ClipFigure& figure : motion.figures) {
     if (figure.name == "rate_stated_ratio") return figure.value;
