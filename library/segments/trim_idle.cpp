@@ -15,8 +15,8 @@
 namespace marey::library {
 namespace {
 
-constexpr double kMinStill_s = 0.5;
-constexpr double kKeptStill_s = 0.25;
+constexpr double kMinIdle_s = 0.5;
+constexpr double kKeptIdle_s = 0.25;
 constexpr double kMinKept_s = 0.5;
 // Twice the half span of still_frames().
 constexpr double kJump_s = 0.2;
@@ -50,11 +50,11 @@ std::vector<IdleFrames> idle_at_start(const std::vector<char>& in_t_pose,
       ++moving;
     }
     int length = marked_from(still, t + moving);
-    if (length - 1 < kMinStill_s * hz - 1e-9) break;
+    if (length - 1 < kMinIdle_s * hz - 1e-9) break;
     length += moving;
     const int next = t + length;
     if (next < count) {
-      length -= static_cast<int>(std::lround(kKeptStill_s * hz));
+      length -= static_cast<int>(std::lround(kKeptIdle_s * hz));
     }
     if (length > 0) out.push_back({{t, t + length - 1}, "still"});
     break;
