@@ -31,4 +31,8 @@ struct ExportReport {
   std::vector<LicenceGroup> licences;  ///< All licences of the selected clips.
 };
 
+/// Returns the number of exported clips without a subject. Splits by subject can divide
+/// the person of these clips: only clips of one source stay together.
+[[nodiscard]] std::size_t count_without_subject(const ExportReport& report);
+
 }  // namespace marey::app

@@ -217,6 +217,11 @@ std::string origin_line(const Provenance& origin) {
 
 }  // namespace
 
+std::size_t count_without_subject(const ExportReport& report) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      report.clips, [](const auto& clip) { return clip.provenance.subject.empty(); }));
+}
+
 std::string version_of_library(const fs::path& library) {
   std::error_code problem;
   std::string newest;
@@ -273,7 +278,14 @@ std::string datasheet_text(const ExportReport& report, const ExportOptions& opti
           " frames, " + hours(all.seconds) + " hours.\n\n";
   text += "Version of the library: " + version_of_library(options.library) +
           ". Written by marey " + std::string(kVersion) + ".\n\n## Settings\n\n";
-  text += settings_of(options) + "## Contents\n\n";
+  text += settings_of(options);
+  const std::size_t unknown = count_without_subject(report);
+  if (unknown > 0 && options.split_by == library::SplitBy::kSubject) {
+    text += std::to_string(unknown) +
+            " clips have no subject. The splits keep their sources together, but can "
+            "divide a person.\n\n";
+  }
+  text += "## Contents\n\n";
   text +=
       table_of("split", count_by(report, [](const auto& clip) { return clip.split; }));
   text += table_of("licence", count_by(report, [](const auto& clip) {

@@ -191,7 +191,12 @@ Result<LibraryMotion> ClipConverter::read(const ClipRecord& record) {
     const auto place =
         options_.library / recordings::object_path(record.object_key, ".npz");
     auto object = recordings::read_motion_object(place);
-    if (!object) return object.error();
+    if (!object) {
+      Error error = object.error();
+      error.cause = "the motion of clip " + record.clip_id + ": " + error.cause;
+      error.next = "make it again with marey library build " + options_.library.string();
+      return error;
+    }
     object_ = *std::move(object);
     object_key_ = record.object_key;
   }
@@ -199,11 +204,11 @@ Result<LibraryMotion> ClipConverter::read(const ClipRecord& record) {
   const int last = record.last_frame - object_.motion.first_frame;
   const int count = static_cast<int>(object_.motion.poses.size());
   if (first < 0 || last < first || last >= count) {
-    return bad_input(options_.library.string() + ": clip " + record.clip_id,
-                     "its motion does not have the frames " +
-                         std::to_string(record.first_frame) + " to " +
-                         std::to_string(record.last_frame),
-                     "call marey library build again");
+    return bad_input(
+        options_.library.string() + ": clip " + record.clip_id,
+        "its motion does not have the frames " + std::to_string(record.first_frame) +
+            " to " + std::to_string(record.last_frame),
+        "make it again with marey library build " + options_.library.string());
   }
   return library::part_of(object_, first, last);
 }

@@ -101,6 +101,18 @@ void warn_of_attribution(const ExportReport& report, Console& console) {
   }
 }
 
+void warn_of_subjects(const ExportReport& report,
+                      const ExportOptions& options,
+                      Console& console) {
+  const std::size_t unknown = count_without_subject(report);
+  const bool divides = options.splits.size() > 1;
+  if (unknown == 0 || !divides || options.split_by == library::SplitBy::kClip) return;
+  console.warn(
+      std::to_string(unknown) + " of " + std::to_string(report.clips.size()) +
+      " clips have no subject; the splits can divide a person. Next: set subject "
+      "for their sources in library.toml.");
+}
+
 }  // namespace
 
 Exit print_export(const ExportReport& report,
@@ -108,6 +120,7 @@ Exit print_export(const ExportReport& report,
                   bool as_json,
                   Console& console) {
   warn_of_attribution(report, console);
+  warn_of_subjects(report, options, console);
   std::set<std::string> labels;
   for (const UnknownSide& side : report.unknown_sides) {
     if (!labels.insert(side.label).second) continue;

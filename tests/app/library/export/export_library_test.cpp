@@ -199,6 +199,7 @@ TEST(ExportLibrary, DescribesContentsAndOmissions) {
                            "Version of the library: 0010, SHA-256 ",
                            "| query | quality=warn \\| x |",
                            "| anna | 1 | 0.000 |",
+                           "## Settings",
                            "| turn left | 1 |",
                            "1 of 4 clips of the library were not selected",
                            "| stiff | the body has no bone \"upperChest\" |"}) {
@@ -286,6 +287,8 @@ TEST(ExportLibrary, ReportsAMissingObject) {
   const auto report = scene.run(scene.options(ExportFormat::kNpz, "p"));
   ASSERT_FALSE(report);
   EXPECT_EQ(report.error().code, Errc::kBadInput);
+  EXPECT_EQ(report.error().next,
+            "make it again with marey library build " + scene.library().string());
   EXPECT_TRUE(fs::is_empty(scene.out("")));
 }
 

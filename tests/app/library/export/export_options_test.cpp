@@ -96,6 +96,26 @@ TEST(ClipTables, QuoteFieldsThatNeedIt) {
   EXPECT_EQ(line, "plain\"a,b\"\"say \"\"yes\"\"\nor no\"");
 }
 
+TEST(PrintExport, WarnsOfClipsWithoutSubject) {
+  const testing::ExportScene scene;
+  ExportOptions options = scene.options(ExportFormat::kTable, "e");
+  const auto report = scene.run(options);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(count_without_subject(*report), 1u);
+  Console console(ProgressStyle::kQuiet);
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(print_export(*report, options, false, console), Exit::kOk);
+  const std::string messages = ::testing::internal::GetCapturedStderr();
+  EXPECT_NE(messages.find("1 of 4 clips have no subject; the splits can divide a person"),
+            std::string::npos)
+      << messages;
+  options.split_by = library::SplitBy::kClip;
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(print_export(*report, options, false, console), Exit::kOk);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr().find("no subject"),
+            std::string::npos);
+}
+
 TEST(PrintExport, WritesJson) {
   const testing::ExportScene scene;
   ExportOptions options = scene.options(ExportFormat::kAmass, "e");
