@@ -171,13 +171,11 @@ std::optional<ClipCandidate> CandidateSearch::compare(int original,
   out.shift = agreement->shift;
   out.course = agreement->course;
   out.distance = agreement->distance / std::max(agreement->change, 1e-6);
-  const bool has_same_length = shorter + 1.0 >= rule_.min_cover_share * longer;
-  out.is_contained = !has_same_length && clip_.count() < other_.count();
-  out.contains = !has_same_length && !out.is_contained;
-  if (has_same_length &&
-      std::abs(out.shift) > rule_.max_shift_s * kFeatureRate_hz + 1e-9) {
-    return std::nullopt;
-  }
+  const bool is_same = shorter + 1.0 >= rule_.min_cover_share * longer &&
+                       std::abs(out.shift) <= rule_.max_shift_s * kFeatureRate_hz + 1e-9;
+  if (!is_same && shorter == longer) return std::nullopt;
+  out.is_contained = !is_same && clip_.count() < other_.count();
+  out.contains = !is_same && !out.is_contained;
   out.agrees = agreement->distance <= kRounding + rule_.max_distance * agreement->change;
   if (out.agrees) return out;
   // Short motions of one kind are too much alike for the full limit.

@@ -21,8 +21,8 @@ struct ClipCandidate {
   int original = 0;
   bool agrees = false;         ///< It fulfils the rule, but for being distinct.
   bool is_mirrored = false;    ///< The clip was compared as its mirror image.
-  bool is_contained = false;   ///< The original is longer by more than a tenth.
-  bool contains = false;       ///< The original is shorter by more than a tenth.
+  bool is_contained = false;   ///< A part of the original.
+  bool contains = false;       ///< The original is a part of it.
   bool is_other_body = false;  ///< It agrees, or is near, by its course only.
   double shift = 0.0;          ///< Row of the original at the clip's first row.
   double distance = 0.0;       ///< Over the change within 0.1 s.

@@ -17,7 +17,8 @@ struct DuplicateClip {
   int original = 0;
   /// The clip is the mirror image of its original.
   bool is_mirrored = false;
-  /// The clip is a part of its original, which is longer by more than a tenth.
+  /// The clip is a part of its original, which is longer by more than a tenth or begins
+  /// earlier by more than DuplicateRule::max_shift_s.
   bool is_contained = false;
   /// Start of the clip's features in those of its original. [s]
   double shift_s = 0.0;
@@ -33,8 +34,7 @@ struct DuplicateClip {
 /// that one is a duplicate itself, its original counts.
 ///
 /// The features of both clips, without the height of the hips (compare_clips()), must
-/// agree over `rule.min_cover_share` of the shorter clip. The starts of clips of the same
-/// length differ by at most `rule.max_shift_s`. Agreement is one of:
+/// agree over `rule.min_cover_share` of the shorter clip. Agreement is one of:
 ///
 /// - The mean distance is at most 0.005 + rule.max_distance times the mean change of the
 ///   features within 0.1 s. A copy at another rate, or a cut between two instants of
