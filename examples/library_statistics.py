@@ -21,6 +21,7 @@ from marey_library import FEATURE_RATE_HZ, Library, LibraryError
 
 WINDOW = 21  # Instants of 0.1 s.
 STEP = 5
+DPI = 110
 MAX_GROUPS = 12  # That have a colour; the others are grey.
 
 
@@ -73,6 +74,21 @@ def print_table(groups, key):
               f"{100 * table[:, 3].mean():6.1f}")
 
 
+def move_apart(figure, labels):
+    """Moves labels up or down until none covers another one."""
+    figure.canvas.draw()
+    boxes = [label.get_window_extent().padded(6) for label in labels]
+    for _ in range(500):
+        for a in range(len(boxes)):
+            for b in range(a):
+                if boxes[a].overlaps(boxes[b]):
+                    up = 1.0 if boxes[a].y0 >= boxes[b].y0 else -1.0
+                    boxes[a] = boxes[a].translated(0, up)
+                    boxes[b] = boxes[b].translated(0, -up)
+    for label, box in zip(labels, boxes):
+        label.set_position((0, box.y0 + 6 - label.get_window_extent().y0))
+
+
 def draw(groups, rows_of, key, library, path):
     import matplotlib
     matplotlib.use("Agg")
@@ -85,7 +101,7 @@ def draw(groups, rows_of, key, library, path):
     colour_of = {name: colours[k] if k < MAX_GROUPS else (0.75, 0.75, 0.75)
                  for k, name in enumerate(order)}
     figure, (left, right) = plt.subplots(
-        1, 2, figsize=(14, 7), width_ratios=(1, 1.5), layout="constrained")
+        1, 2, figsize=(14, 7), dpi=DPI, width_ratios=(1, 1.5), layout="constrained")
     shown = order[:MAX_GROUPS]
     members = dict(groups)
     for half, (column, name, colour) in enumerate(((0, "hips", "#3b6ea5"),
@@ -112,15 +128,19 @@ def draw(groups, rows_of, key, library, path):
     tints = np.array([colour_of[name] for name in names])
     mixed = np.random.default_rng(0).permutation(len(rows))  # No group hides another.
     right.scatter(*places[mixed].T, s=7, c=tints[mixed], alpha=0.55, linewidths=0)
+    labels = []
     for name in shown:
         mine = places[[other == name for other in names]]
         if len(mine) == 0:
             continue
         middle = np.median(mine, axis=0)
         centre = mine[np.linalg.norm(mine - middle, axis=1).argmin()]
-        right.annotate(name, centre, ha="center", va="center", fontsize=9, weight="bold",
-                       bbox={"boxstyle": "round,pad=0.25", "facecolor": "white",
-                             "edgecolor": colour_of[name], "linewidth": 1.6, "alpha": 0.85})
+        labels.append(right.annotate(
+            name, centre, xytext=(0, 0), textcoords="offset pixels", ha="center",
+            va="center", fontsize=9, weight="bold",
+            arrowprops={"arrowstyle": "-", "color": colour_of[name], "linewidth": 1.2},
+            bbox={"boxstyle": "round,pad=0.2", "facecolor": "white",
+                  "edgecolor": colour_of[name], "linewidth": 1.6, "alpha": 0.9}))
     right.set_xlabel(f"principal component 1 ({100 * shares[0]:.0f} % of the variance)")
     right.set_ylabel(f"principal component 2 ({100 * shares[1]:.0f} %)")
     right.set_title(f"{len(rows)} windows of {(WINDOW - 1) / FEATURE_RATE_HZ:g} s by their "
@@ -128,7 +148,8 @@ def draw(groups, rows_of, key, library, path):
     hours = sum(clip.seconds for _, group in groups for clip, _ in group) / 3600
     figure.suptitle(f"{library.path.resolve().name}, version {library.version}: "
                     f"{len(library)} clips, {hours:.2f} h")
-    figure.savefig(path, dpi=110)
+    move_apart(figure, labels)
+    figure.savefig(path, dpi=DPI)
     print("wrote", path)
 
 

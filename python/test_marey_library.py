@@ -290,6 +290,18 @@ class LibraryTest(unittest.TestCase):
                 got = pool.starmap(read_item, [(data, k) for k in range(len(data))])
             self.assertEqual(got, wanted)
 
+    def test_statistics_of_the_example(self):
+        script = Path(__file__).resolve().parents[1] / "examples" / "library_statistics.py"
+        picture = Path(self.scratch.name) / "map.png"
+        run = subprocess.run(
+            [sys.executable, "-B", script, self.path, "--to", picture], text=True,
+            capture_output=True,
+            env={**os.environ, "PYTHONPATH": str(Path(__file__).resolve().parent)})
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertRegex(run.stdout, r"\nwalk +6 ")
+        if "matplotlib is missing" not in run.stdout:
+            self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
+
     def test_messages(self):
         empty = Path(self.scratch.name) / "empty"
         empty.mkdir(exist_ok=True)

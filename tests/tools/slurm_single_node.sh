@@ -12,7 +12,7 @@
 set -euo pipefail
 readonly MAREY=$1 MOTIONS=$2 WORK=$3
 export PATH=$PATH:/usr/sbin:/sbin
-readonly SHARDS=4 WAIT_S=${WAIT_S:-240}
+readonly SHARDS=4 MAX_S=400
 
 for command in munged slurmctld slurmd sbatch; do
   if ! command -v $command >/dev/null; then
@@ -25,12 +25,24 @@ if [[ $(id -u) != 0 ]]; then
   exit 0
 fi
 
-# Daemons are children in the foreground: they end with this script, whatever happens.
+if [[ ! -d $MOTIONS ]]; then
+  echo "skipped: $MOTIONS is missing"
+  exit 0
+fi
+
+# Daemons are children in the foreground, and end with this script, even if it is killed.
 daemons=()
+readonly DAEMON="setpriv --pdeathsig KILL"
 stop_daemons() {
   local status=$? pid
   trap - EXIT
-  scancel --user=root >/dev/null 2>&1 || true
+  if ((${#daemons[@]} == 3)); then
+    scancel --user=root >/dev/null 2>&1 || true
+    for _ in $(seq 100); do
+      [[ $(squeue --noheader 2>/dev/null) ]] || break
+      sleep 0.1
+    done
+  fi
   # In the order slurmd, slurmctld, munged: each needs the next one to end its work.
   for ((k = ${#daemons[@]} - 1; k >= 0; --k)); do
     pid=${daemons[k]}
@@ -65,11 +77,10 @@ free_port() {
 await() {
   local what=$1
   shift
-  for _ in $(seq $((WAIT_S * 5))); do
-    "$@" && return
+  until "$@"; do
+    ((SECONDS < MAX_S)) || fail "$what: not within $MAX_S s"
     sleep 0.2
   done
-  fail "$what: not within $WAIT_S s"
 }
 
 start_slurm() {
@@ -81,7 +92,7 @@ start_slurm() {
   chmod 700 "$base/log"
   dd if=/dev/urandom of="$base/munge.key" bs=128 count=1 status=none
   chmod 600 "$base/munge.key"
-  munged --foreground --force --key-file="$base/munge.key" --socket="$base/run/munge.sock" \
+  $DAEMON munged --foreground --force --key-file="$base/munge.key" --socket="$base/run/munge.sock" \
     --pid-file="$base/run/munged.pid" --log-file="$base/log/munged.log" \
     --seed-file="$base/run/seed" >"$base/log/munged_out.log" 2>&1 &
   daemons+=($!)
@@ -115,9 +126,9 @@ PartitionName=main Nodes=$host Default=YES MaxTime=INFINITE State=UP
 TEXT
   export SLURM_CONF=$base/slurm.conf
   await "munged" test -S "$base/run/munge.sock"
-  slurmctld -D -f "$SLURM_CONF" >"$base/log/slurmctld_out.log" 2>&1 &
+  $DAEMON slurmctld -D -f "$SLURM_CONF" >"$base/log/slurmctld_out.log" 2>&1 &
   daemons+=($!)
-  slurmd -D -f "$SLURM_CONF" >"$base/log/slurmd_out.log" 2>&1 &
+  $DAEMON slurmd -D -f "$SLURM_CONF" >"$base/log/slurmd_out.log" 2>&1 &
   daemons+=($!)
   await "the node of Slurm" is_idle
 }
