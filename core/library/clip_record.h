@@ -12,7 +12,7 @@
 namespace marey {
 
 /// Quality of a clip, and of one figure of it. The quality of a clip is its worst
-/// figure's.
+/// figure's, unless a person corrected it (labels/verdicts.csv).
 enum class Verdict { kPass, kWarn, kFail };
 
 [[nodiscard]] constexpr std::string_view name(Verdict verdict) {
@@ -95,8 +95,9 @@ struct ClipRecord {
   std::vector<ClipLabel> labels;      ///< Ascending by start, then text.
   std::vector<ClipEvent> events;      ///< Ascending by frame, then name.
   std::string split;                  ///< "train", "val", "test"; empty: none.
-  std::string duplicate_of;           ///< Id of an earlier clip; empty: none.
-  std::string mirror_of;              ///< Id of an earlier clip; empty: none.
+  /// Id of the clip that this one repeats: an earlier or a longer one; empty: none.
+  std::string duplicate_of;
+  std::string mirror_of;  ///< The same, for the mirror image.
 
   [[nodiscard]] int frame_count() const { return last_frame - first_frame + 1; }
   [[nodiscard]] double duration_s() const {

@@ -128,10 +128,13 @@ void read_splits(TomlReader in, LibrarySettings& out) {
 }
 
 void read_duplicates(TomlReader in, LibrarySettings& out) {
-  in.allow({"max_distance", "max_shift_s", "min_cover_share"});
+  in.allow({"max_distance", "max_body_distance", "max_shift_s", "min_cover_share"});
   DuplicateRule& rule = out.duplicates;
   if (in.has("max_distance")) {
-    rule.max_distance = in.number("max_distance", {0.0, 100.0, "leg lengths"});
+    rule.max_distance = in.number("max_distance", {0.0, 100.0});
+  }
+  if (in.has("max_body_distance")) {
+    rule.max_body_distance = in.number("max_body_distance", {0.0, 100.0});
   }
   if (in.has("max_shift_s")) {
     rule.max_shift_s = in.number("max_shift_s", {0.0, kMaxShift_s, "s"});

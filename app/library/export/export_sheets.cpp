@@ -14,7 +14,8 @@
 #include "core/base/printable.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/base/number_text.h"
-#include "recordings/base/sha256.h"
+#include "recordings/library/index_head.h"
+#include "recordings/library/library_paths.h"
 
 namespace marey::app {
 namespace {
@@ -223,19 +224,10 @@ std::size_t count_without_subject(const ExportReport& report) {
 }
 
 std::string version_of_library(const fs::path& library) {
-  std::error_code problem;
-  std::string newest;
-  for (const auto& entry : fs::directory_iterator(library / "versions", problem)) {
-    const std::string stem = entry.path().stem().string();
-    const bool is_number =
-        !stem.empty() && stem.find_first_not_of("0123456789") == std::string::npos;
-    if (entry.path().extension() != ".txt" || !is_number) continue;
-    if (std::pair(stem.size(), stem) > std::pair(newest.size(), newest)) newest = stem;
-  }
-  if (newest.empty()) return "none";
-  const auto digest =
-      recordings::sha256_of_file(library / "versions" / (newest + ".txt"));
-  return newest + (digest ? ", SHA-256 " + *digest : std::string());
+  const auto head =
+      recordings::read_index_head(recordings::LibraryPaths(library).index());
+  if (!head || head->version == 0) return "none";
+  return std::to_string(head->version) + ", SHA-256 " + head->version_name;
 }
 
 std::string licences_text(const ExportReport& report, const ExportOptions& options) {

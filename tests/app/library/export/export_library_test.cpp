@@ -196,7 +196,7 @@ TEST(ExportLibrary, DescribesContentsAndOmissions) {
   EXPECT_EQ(report->left_out[0].reason, "the body has no bone \"upperChest\"");
   const std::string text = text_of(options.out / "DATASHEET.md");
   for (const char* part : {"2 clips, 150 frames, 0.001 hours.",
-                           "Version of the library: 0010, SHA-256 ",
+                           "Version of the library: 10, SHA-256 ffff",
                            "| query | quality=warn \\| x |",
                            "| anna | 1 | 0.000 |",
                            "## Settings",

@@ -89,9 +89,10 @@ ExportScene::ExportScene() {
   records_[3].provenance.licence = "CC0-1.0";
   records_[3].quality = Verdict::kWarn;
 
-  needed(recordings::write_library_index(library() / "library.sqlite", records_));
-  needed(recordings::write_file(library() / "versions/0002.txt", "two\n"));
-  needed(recordings::write_file(library() / "versions/0010.txt", "ten\n"));
+  recordings::IndexHead head;
+  head.version = 10;
+  head.version_name = std::string(64, 'f');
+  needed(recordings::write_library_index(library() / "library.sqlite", records_, head));
 }
 
 app::ExportOptions ExportScene::options(app::ExportFormat format,
