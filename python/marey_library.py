@@ -35,7 +35,7 @@ INDEX_APPLICATION = 0x4D4C4942  # "MLIB"
 INDEX_VERSION = 3
 MOTION_LAYOUT = 2
 ROWS_LAYOUT = 1
-FEATURES = 57  # Of one instant; in files, 7 zeros follow.
+FEATURES = 57  # Values per instant; files have 7 zeros after them.
 FEATURE_STRIDE = 64
 FEATURE_RATE_HZ = 10.0
 _SAME = 1e-6  # Tolerance of instants, in frames.
@@ -60,7 +60,7 @@ class Clip:
     licence: str  # SPDX expression, or "unknown".
     subject: str
     split: str  # "train", "val" or "test".
-    labels: list[str]  # Without those that a build found in the motion.
+    labels: list[str]  # By people and names of files.
     figures: dict[str, float]
 
 
@@ -96,12 +96,12 @@ class Licence:
     licence: str
     clips: int
     seconds: float
-    attributions: list[str]  # Whom to name.
+    attributions: list[str]
 
 
 @dataclass(frozen=True)
 class _Row:
-    """What is needed of a clip to find its frames."""
+    """Place of a clip's frames."""
     number: int
     id: str
     name: str
@@ -125,6 +125,12 @@ class Library:
             rows = [_Row(*row) for row in index.execute(
                 "SELECT number, id, name, key, first, last, rate_hz FROM clip "
                 "ORDER BY number")]
+        is_whole = isinstance(search, str) and all(
+            isinstance(row.id, str) and isinstance(row.key, str) and row.rate
+            and isinstance(row.first, int) and isinstance(row.last, int)
+            and row.number == place for place, row in enumerate(rows))
+        if not is_whole:
+            raise _damaged(self.path / "library.sqlite", "it is damaged", self.path)
         self._search = self.path / "search" / Path(search).name
         self._rows = {row.id: row for row in rows}
         self._kept: OrderedDict[str, tuple[Motion, int]] = OrderedDict()
@@ -182,8 +188,8 @@ class Library:
         return [found[id] for id in (found if ids is None else ids)]
 
     def licences(self) -> list[Licence]:
-        """Returns the licences of all clips, with whom to name. What a licence permits is
-        not checked here: `marey library export` does, and query() selects by it."""
+        """Returns the licences of all clips, with the persons to name. This module does not check
+        permissions: `marey library export` does, and query() selects by licence."""
         with self._index() as index:
             rows = index.execute(
                 "SELECT clip.licence, count(*), sum(seconds), json_group_array(DISTINCT "
@@ -285,7 +291,7 @@ class Library:
                 raise LibraryError(f"{path}: the library was built again meanwhile; open it "
                                    "again with Library(path)")
             yield index
-        except sqlite3.DatabaseError as error:
+        except (sqlite3.DatabaseError, UnicodeDecodeError) as error:
             raise _damaged(path, f"it is damaged: {error}", self.path) from None
         finally:
             if index is not None:
@@ -527,8 +533,18 @@ def _map_motion(path: Path, library: Path) -> tuple[Motion, int]:
         names = {name: [str(word) for word in arrays.pop(name)]
                  for name in ("joint_names", "human_bones")}
         del arrays["format"]
-        return Motion(rate=rate, **names, **arrays), first
-    except (zipfile.BadZipFile, KeyError, TypeError, ValueError) as error:
+        motion = Motion(rate=rate, **names, **arrays)
+        frames, joints = motion.rotations_wxyz.shape[:2]
+        shapes = {"root_m": (frames, 3), "rotations_wxyz": (frames, joints, 4),
+                  "contacts": (frames, 4), "parents": (joints,),
+                  "rest_translations_m": (joints, 3)}
+        if any(arrays[name].shape != shape for name, shape in shapes.items()):
+            raise ValueError("the shapes of its arrays differ")
+        if np.any(motion.parents >= np.arange(joints)):
+            raise ValueError("a joint comes before its parent")
+        return motion, first
+    except (zipfile.BadZipFile, AttributeError, KeyError, NotImplementedError, SyntaxError,
+            OverflowError, TypeError, ValueError) as error:
         raise _damaged(path, f"it is damaged: {error}", library) from None
 
 

@@ -258,7 +258,7 @@ def scan(root):
             add("pages" if of_page else "test_messages", path, page_literal_sentences)
     for path in files_of(root, ROOMS + TESTS, "*.html"):
         add("pages", path, html_sentences)
-    everywhere = ROOMS + TESTS + ("cmake", "docs")
+    everywhere = ROOMS + TESTS + ("cmake", "docs", "python")
     for path in sorted(root.glob("*.md")) + list(files_of(root, everywhere, "*.md")):
         add("docs", path, markdown_sentences)
     for path in files_of(root, everywhere, "*.py"):
