@@ -8,7 +8,7 @@ namespace marey::recordings {
 
 std::optional<FileStat> stat_file(const std::filesystem::path& path) {
   constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-  struct stat state{};
+  struct stat state {};
   if (::stat(path.c_str(), &state) != 0) return std::nullopt;
   return FileStat{static_cast<std::uint64_t>(state.st_size),
                   state.st_mtim.tv_sec * kNanosecondsPerSecond + state.st_mtim.tv_nsec,

@@ -13,7 +13,7 @@ Result<IndexHead> read_index_head(const std::filesystem::path& path) {
   if (!database) return database.error();
   Statement head(database->get(),
                  "SELECT version, version_name, search, inputs, clips, warned, failed, "
-                 "duplicates, seconds FROM head");
+                 "duplicates, seconds, remarks FROM head");
   if (!head.next_row()) return bad_index(path, "it has no head");
   IndexHead out;
   out.version = static_cast<int>(head.integer(0));
@@ -25,6 +25,7 @@ Result<IndexHead> read_index_head(const std::filesystem::path& path) {
   out.failed = head.integer(6);
   out.duplicates = head.integer(7);
   out.seconds = head.number(8);
+  out.remarks = head.text(9);
   return out;
 }
 

@@ -26,7 +26,8 @@ constexpr const char* kIndexSchema = R"(
 CREATE TABLE head(
   version INTEGER NOT NULL, version_name TEXT NOT NULL, search TEXT NOT NULL,
   inputs TEXT NOT NULL, clips INTEGER NOT NULL, warned INTEGER NOT NULL,
-  failed INTEGER NOT NULL, duplicates INTEGER NOT NULL, seconds REAL NOT NULL
+  failed INTEGER NOT NULL, duplicates INTEGER NOT NULL, seconds REAL NOT NULL,
+  remarks TEXT NOT NULL
 ) STRICT;
 CREATE TABLE source(
   id INTEGER PRIMARY KEY, sha256 TEXT NOT NULL, path TEXT NOT NULL, kind TEXT NOT NULL,
@@ -280,7 +281,7 @@ class PartialIndex {
 };
 
 bool add_head(sqlite3* database, const IndexHead& head) {
-  Statement row(database, "INSERT INTO head VALUES(?,?,?,?,?,?,?,?,?)");
+  Statement row(database, "INSERT INTO head VALUES(?,?,?,?,?,?,?,?,?,?)");
   row.bind(0, std::int64_t{head.version});
   row.bind(1, std::string_view(head.version_name));
   row.bind(2, std::string_view(head.search));
@@ -290,6 +291,7 @@ bool add_head(sqlite3* database, const IndexHead& head) {
   row.bind(6, head.failed);
   row.bind(7, head.duplicates);
   row.bind(8, head.seconds);
+  row.bind(9, std::string_view(head.remarks));
   return row.run();
 }
 

@@ -7,7 +7,6 @@
 #include <system_error>
 #include <utility>
 
-
 namespace marey::recordings {
 
 Error bad_index(const std::filesystem::path& path, std::string cause) {

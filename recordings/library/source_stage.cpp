@@ -55,6 +55,7 @@ std::string source_stage_text(const SourceStage& stage) {
                {"next", stage.failure->next}};
   }
   return stage_dump({{"bodies", records_json(stage.bodies)},
+                     {"motion_bytes", stage.motion_bytes},
                      {"remarks", stage.remarks},
                      {"failure", failure}});
 }
@@ -62,13 +63,19 @@ std::string source_stage_text(const SourceStage& stage) {
 std::optional<SourceStage> parse_source_stage(std::string_view text) {
   const StageJson root = parse_stage_json(text);
   if (!root.is_object() || !root.contains("bodies") || !root.contains("remarks") ||
-      !root.contains("failure")) {
+      !root.contains("failure") || !root.contains("motion_bytes") ||
+      !root.at("motion_bytes").is_array()) {
     return std::nullopt;
   }
   SourceStage out;
   auto bodies = read_records(root.at("bodies"));
   if (!bodies || !root.at("remarks").is_array()) return std::nullopt;
   out.bodies = std::move(*bodies);
+  for (const StageJson& bytes : root.at("motion_bytes")) {
+    if (!bytes.is_number_unsigned()) return std::nullopt;
+    out.motion_bytes.push_back(bytes.get<std::uint64_t>());
+  }
+  if (out.motion_bytes.size() != out.bodies.size()) return std::nullopt;
   for (const StageJson& remark : root.at("remarks")) {
     if (!remark.is_string()) return std::nullopt;
     out.remarks.push_back(remark.get<std::string>());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +18,8 @@ struct SourceStage {
   /// A record per body: its name, the key, the frames and the rate of its motion, and the
   /// figures, labels and events that only the source has. The rest is empty.
   std::vector<ClipRecord> bodies;
+  /// Bytes of the motion of each body: another size is a damaged object.
+  std::vector<std::uint64_t> motion_bytes;
   std::vector<std::string> remarks;
   std::optional<Error> failure;  ///< If set, there are no bodies.
 };

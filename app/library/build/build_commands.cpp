@@ -47,6 +47,19 @@ void remove_left_files(const fs::path& library) {
 
 Exit report_build(const Result<BuiltLibrary>& built,
                   const LibraryBuildArguments& args,
+                  Console& console);
+
+/// Builds a library whose lock this process holds.
+Exit build_locked(const LibraryBuildArguments& args, Console& console) {
+  auto inputs = read_build_inputs(args.library);
+  if (!inputs) return console.fail(inputs.error());
+  remove_left_files(inputs->library);
+  return report_build(
+      build_library(std::move(*inputs), jobs_of(args), console), args, console);
+}
+
+Exit report_build(const Result<BuiltLibrary>& built,
+                  const LibraryBuildArguments& args,
                   Console& console) {
   if (!built) {
     if (stop_wanted()) {
@@ -69,6 +82,13 @@ Exit report_build(const Result<BuiltLibrary>& built,
        format_text(
            "%zu of %zu sources gave no clip", built->failures.size(), built->sources),
        "read " + folder + ", where each has its cause"});
+}
+
+void print_slurm_script(const BuildInputs& inputs, int shards) {
+  std::error_code failed;
+  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+  const std::string name = failed ? "marey" : program.string();
+  std::printf("%s", slurm_script(name, inputs.library, shards).c_str());
 }
 
 /// Prints a plan that exists already.
@@ -101,9 +121,21 @@ Result<ShardPlan> read_current_plan(const BuildInputs& inputs) {
                    "N; finished objects are kept");
 }
 
-Exit work_on(const BuildInputs& inputs,
-             const LibraryBuildArguments& args,
-             Console& console) {
+/// Names the sources of labels that divide motions: of all shards.
+Status name_sources_of_plan(BuildInputs& inputs, const ShardPlan& plan) {
+  if (!inputs.segment_labels) return Done{};
+  std::vector<std::string> names;
+  for (int shard = 1; shard <= plan.shards; ++shard) {
+    const auto files =
+        read_shard_list(inputs.library, plan, shard, inputs.settings.sources.size());
+    if (!files) return files.error();
+    for (std::string& name : source_names(*files)) names.push_back(std::move(name));
+  }
+  name_label_sources(inputs, names);
+  return Done{};
+}
+
+Exit work_on(BuildInputs inputs, const LibraryBuildArguments& args, Console& console) {
   const auto plan = read_current_plan(inputs);
   if (!plan) return console.fail(plan.error());
   if (args.shard > plan->shards) {
@@ -116,18 +148,23 @@ Exit work_on(const BuildInputs& inputs,
     console.say(format_text("shard %d is finished already", args.shard));
     return Exit::kOk;
   }
-  const auto sources = read_shard_list(inputs.library, args.shard);
+  const auto sources =
+      read_shard_list(inputs.library, *plan, args.shard, inputs.settings.sources.size());
   if (!sources) return console.fail(sources.error());
-  const auto outcomes = import_sources(inputs, *sources, jobs_of(args), console);
+  if (const Status ok = name_sources_of_plan(inputs, *plan); !ok) {
+    return console.fail(ok.error());
+  }
+  const auto outcomes =
+      import_sources(inputs, *sources, jobs_of(args), CacheUse::kRead, console);
   if (!outcomes) {
     console.say("stopped; the same command goes on from here");
     return Exit::kInterrupted;
   }
   for (const SourceOutcome& outcome : *outcomes) {
     // Without outcomes, the shard counts as not finished, and can be repeated.
-    if (outcome.is_disk_failure) return console.fail(*outcome.failure);
+    if (outcome.is_machine_failure) return console.fail(*outcome.failure);
   }
-  const Status ok = write_shard_outcomes(inputs.library, args.shard, *outcomes);
+  const Status ok = write_shard_outcomes(inputs.library, *plan, args.shard, *outcomes);
   if (!ok) return console.fail(ok.error());
   console.say(format_text("shard %d: %zu sources", args.shard, sources->size()));
   return Exit::kOk;
@@ -140,11 +177,14 @@ Status read_all_shards(const BuildInputs& inputs,
                        std::vector<SourceOutcome>& outcomes) {
   std::vector<std::pair<SourceFile, SourceOutcome>> all;
   for (int shard = 1; shard <= plan.shards; ++shard) {
-    auto files = read_shard_list(inputs.library, shard);
+    auto files =
+        read_shard_list(inputs.library, plan, shard, inputs.settings.sources.size());
     if (!files) return files.error();
-    auto results = read_shard_outcomes(inputs.library, shard);
+    auto results = read_shard_outcomes(inputs.library, plan, shard);
     if (!results) return results.error();
-    if (files->size() != results->size()) {
+    const bool is_same =
+        std::ranges::equal(*files, *results, {}, &SourceFile::name, &SourceOutcome::name);
+    if (!is_same) {
       return bad_input(format_text("shard %d", shard),
                        "its outcomes belong to another list of sources",
                        "delete the folder shards, then plan again");
@@ -193,19 +233,26 @@ void add_add_command(CLI::App& library,
 
 Exit run_library_build(const LibraryBuildArguments& args, Console& console) {
   catch_stop_signals();
-  const auto inputs = read_build_inputs(args.library);
-  if (!inputs) return console.fail(inputs.error());
-  const auto lock = LibraryLock::take(inputs->library);
+  // Before the lock, which belongs into an existing library only.
+  const auto found = read_build_inputs(args.library);
+  if (!found) return console.fail(found.error());
+  const auto lock = LibraryLock::take(found->library);
   if (!lock) return console.fail(lock.error());
-  remove_left_files(inputs->library);
-  return report_build(build_library(*inputs, jobs_of(args), console), args, console);
+  return build_locked(args, console);
 }
 
 Exit run_library_add(const LibraryBuildArguments& args, Console& console) {
   AddSourcesArguments added = args.added;
   added.library = args.library;
-  if (const Status ok = add_sources(added); !ok) return console.fail(ok.error());
-  return run_library_build(args, console);
+  catch_stop_signals();
+  std::error_code failed;
+  fs::create_directories(args.library, failed);
+  const auto lock = LibraryLock::take(fs::absolute(args.library, failed));
+  if (!lock) return console.fail(lock.error());
+  if (const Status ok = add_sources(added); !ok) {
+    return console.fail(ok.error());
+  }
+  return build_locked(args, console);
 }
 
 Exit run_library_plan(const LibraryBuildArguments& args, Console& console) {
@@ -213,16 +260,9 @@ Exit run_library_plan(const LibraryBuildArguments& args, Console& console) {
   if (!inputs) return console.fail(inputs.error());
   const auto lock = LibraryLock::take(inputs->library);
   if (!lock) return console.fail(lock.error());
-  if (args.slurm) {
-    std::error_code failed;
-    const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-    std::printf(
-        "%s",
-        slurm_script(failed ? "marey" : program.string(), inputs->library, args.shards)
-            .c_str());
-  }
   const auto old = read_shard_plan(inputs->library);
   if (old && old->inputs == inputs->digest && old->shards == args.shards) {
+    if (args.slurm) print_slurm_script(*inputs, args.shards);
     return say_planned(*inputs, *old, console);
   }
   if (old && old->inputs == inputs->digest) {

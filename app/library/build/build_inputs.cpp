@@ -10,7 +10,7 @@
 
 #include "library/quality/quality_limits.h"
 
-#include "core/base/extension.h"
+#include "app/library/labels/label_targets.h"
 #include "core/base/format_text.h"
 #include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
@@ -25,27 +25,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Versions of the stages: a change of their results needs a new one.
+// Versions of the stages. A change of a stage's results needs a new one, so that existing
+// libraries are built again: of reading, normal form and floor; of segments, labels,
+// features and figures. Limits of figures are a part of the key.
 constexpr int kMotionStage = 1;
 constexpr int kClipsStage = 1;
-
-/// Returns the labels of a library in the order of their names.
-std::vector<fs::path> label_files(const fs::path& library) {
-  std::vector<fs::path> out;
-  std::error_code failed;
-  for (fs::directory_iterator at(recordings::LibraryPaths(library).labels(), failed), end;
-       !failed && at != end;
-       at.increment(failed)) {
-    if (kind_by_extension(at->path()) == ".csv") out.push_back(at->path());
-  }
-  std::ranges::sort(out);
-  return out;
-}
 
 /// Reads the digest of the labels, and the labels if motions are divided by them.
 Status read_labels_of(BuildInputs& out) {
   std::string digests;
-  for (const fs::path& labels : label_files(out.library)) {
+  const auto tables = label_tables(out.library);
+  if (!tables) return tables.error();
+  for (const fs::path& labels : *tables) {
     const auto digest = recordings::sha256_of_file(labels);
     if (!digest) return digest.error();
     digests += labels.filename().string() + *digest;
@@ -54,7 +45,7 @@ Status read_labels_of(BuildInputs& out) {
   if (out.settings.segment != SegmentBy::kLabels) return Done{};
   auto labels = read_library_labels(out.library);
   if (!labels) return labels.error();
-  out.labels = std::move(*labels);
+  out.segment_labels = std::move(*labels);
   return Done{};
 }
 
@@ -95,6 +86,26 @@ std::string exact_text(double value) {
 }
 
 }  // namespace
+
+void name_label_sources(BuildInputs& inputs, const std::vector<std::string>& names) {
+  if (!inputs.segment_labels) return;
+  std::vector<ClipRecord> sources(names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    sources[i].provenance.path = names[i];
+    sources[i].clip_id = "source " + std::to_string(i);
+  }
+  const LabelTargets targets(sources);
+  for (LabelFile& file : inputs.segment_labels->files) {
+    std::vector<recordings::LabelRow> kept;
+    for (recordings::LabelRow& row : file.rows) {
+      LabelTarget target = targets.find(row.target);
+      if (target.kind != LabelTarget::Kind::kSource) continue;
+      row.target = std::move(target.name);
+      kept.push_back(std::move(row));
+    }
+    file.rows = std::move(kept);
+  }
+}
 
 Result<BuildInputs> read_build_inputs(const fs::path& library) {
   std::error_code failed;
@@ -144,6 +155,10 @@ SourceKeys keys_of(const BuildInputs& inputs,
   }
   std::string clips = "segment " + std::to_string(static_cast<int>(settings.segment));
   if (settings.segment == SegmentBy::kLabels) clips += " " + inputs.labels_digest;
+  for (const library::FigureRule& rule : library::figure_rules()) {
+    clips += " " + std::string(rule.figure) + " " + exact_text(rule.warn) + " " +
+             exact_text(rule.fail);
+  }
   for (const QualityLimit& limit : settings.limits) {
     clips +=
         " " + limit.figure + " " + exact_text(limit.warn) + " " + exact_text(limit.fail);

@@ -22,7 +22,7 @@ struct BuildInputs {
   /// Index table of each source in the settings; nullopt: it has none.
   std::vector<std::optional<IndexTable>> tables;
   /// Labels of people, if motions are divided by them.
-  std::optional<LibraryLabels> labels;
+  std::optional<LibraryLabels> segment_labels;
   std::string labels_digest;  ///< SHA-256 of the tables of labels.
   /// SHA-256 of library.toml, the index tables and the labels.
   std::string digest;
@@ -34,6 +34,11 @@ struct BuildInputs {
 /// Reads library.toml and its tables and labels. Errors (kBadInput): no library in this
 /// folder; those of their readers.
 [[nodiscard]] Result<BuildInputs> read_build_inputs(const std::filesystem::path& library);
+
+/// Replaces the names in `inputs.segment_labels` by the exact names of sources, of which
+/// `names` are all of the library's. Rows that name no source, or several, are removed:
+/// the merge reports them.
+void name_label_sources(BuildInputs& inputs, const std::vector<std::string>& names);
 
 /// Keys of the two stages of a source. Neither contains a path, a time or the machine.
 struct SourceKeys {

@@ -39,13 +39,18 @@ SourceOutcome ended_outcome(const SourceFile& file, const TaskOutcome& task) {
   SourceOutcome out;
   out.name = file.name;
   Error error;
-  error.code = Errc::kInternal;
   error.where = file.name;
-  error.cause = task.signal && *task.signal != 0 ? signal_cause(*task.signal)
-                                                 : "no process could read the file";
-  error.next =
-      "leave the file out with skip in library.toml, and report the fault with "
-      "this file";
+  const int signal = task.signal.value_or(0);
+  // Without a signal, no process could begin; SIGKILL comes from outside, mostly since
+  // the memory is full.
+  out.is_machine_failure = signal == 0 || signal == SIGKILL;
+  error.code = out.is_machine_failure ? Errc::kDevice : Errc::kInternal;
+  error.cause = signal == 0 ? "no process could read the file" : signal_cause(signal);
+  error.next = out.is_machine_failure
+                   ? "free some memory, or give fewer processes (--jobs 1), and build "
+                     "again; or leave the file out with skip in library.toml"
+                   : "leave the file out with skip in library.toml, and report the fault "
+                     "with this file";
   out.failure = std::move(error);
   return out;
 }
@@ -103,16 +108,32 @@ std::vector<std::string> group_remarks(const std::vector<SourceOutcome>& outcome
   return remarks;
 }
 
+/// Returns the failure of a source that the machine caused: a version without this source
+/// would hide that it is missing.
+std::optional<Error> machine_failure(const std::vector<SourceOutcome>& outcomes) {
+  for (const SourceOutcome& outcome : outcomes) {
+    if (outcome.is_machine_failure) return outcome.failure;
+  }
+  return std::nullopt;
+}
+
 Error stopped() {
   return {Errc::kInternal, "", "stopped", "call marey library build again to go on"};
 }
 
 }  // namespace
 
+std::vector<std::string> source_names(const std::vector<SourceFile>& sources) {
+  std::vector<std::string> out;
+  for (const SourceFile& source : sources) out.push_back(source.name);
+  return out;
+}
+
 std::optional<std::vector<SourceOutcome>> import_sources(
     const BuildInputs& inputs,
     const std::vector<SourceFile>& sources,
     int jobs,
+    CacheUse use,
     Console& console) {
   SourceCache cache = SourceCache::read(inputs.library);
   std::vector<SourceOutcome> out(sources.size());
@@ -142,8 +163,9 @@ std::optional<std::vector<SourceOutcome>> import_sources(
     take_result(tasks[k], sources[open[k]], cache, out[open[k]]);
   }
   // The cache only saves time: that it cannot be written costs the next build some.
-  if (const Status ok = cache.write(inputs.library); !ok) {
-    console.warn(ok.error().message());
+  if (use == CacheUse::kReplace) {
+    const Status ok = cache.write(inputs.library);
+    if (!ok) console.warn(ok.error().message());
   }
   if (stop_wanted()) return std::nullopt;
   return out;
@@ -153,17 +175,22 @@ Result<BuiltLibrary> finish_library(const BuildInputs& inputs,
                                     const std::vector<SourceFile>& sources,
                                     std::vector<SourceOutcome> outcomes,
                                     Console& console) {
-  for (const SourceOutcome& outcome : outcomes) {
-    // A version without these sources would hide that they are missing.
-    if (outcome.is_disk_failure) return *outcome.failure;
-  }
   std::vector<std::size_t> damaged;
+  if (auto failure = machine_failure(outcomes)) return std::move(*failure);
   auto merged = merge_library(inputs, sources, outcomes, damaged);
   if (!merged && !damaged.empty()) {
+    std::vector<SourceFile> again;
     for (const std::size_t i : damaged) {
       console.warn(sources[i].name + ": its objects were damaged, and are made again");
-      outcomes[i] = import_source(inputs, sources[i]).outcome;
+      again.push_back(sources[i]);
     }
+    auto made = import_sources(inputs, again, 1, CacheUse::kRead, console);
+    if (!made) return stopped();
+    for (std::size_t k = 0; k < damaged.size(); ++k) {
+      outcomes[damaged[k]] = std::move((*made)[k]);
+    }
+    if (auto failure = machine_failure(outcomes)) return std::move(*failure);
+    damaged.clear();
     merged = merge_library(inputs, sources, outcomes, damaged);
   }
   if (!merged) return merged.error();
@@ -180,12 +207,12 @@ Result<BuiltLibrary> finish_library(const BuildInputs& inputs,
   return out;
 }
 
-Result<BuiltLibrary> build_library(const BuildInputs& inputs,
-                                   int jobs,
-                                   Console& console) {
+Result<BuiltLibrary> build_library(BuildInputs inputs, int jobs, Console& console) {
   const auto listing = list_sources(inputs.library, inputs.settings);
   if (!listing) return listing.error();
-  auto outcomes = import_sources(inputs, listing->files, jobs, console);
+  name_label_sources(inputs, source_names(listing->files));
+  auto outcomes =
+      import_sources(inputs, listing->files, jobs, CacheUse::kReplace, console);
   if (!outcomes) return stopped();
   auto built = finish_library(inputs, listing->files, std::move(*outcomes), console);
   if (built && !listing->left_out.empty()) {

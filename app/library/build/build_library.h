@@ -25,6 +25,16 @@ struct BuiltLibrary {
   std::vector<std::string> remarks;
 };
 
+/// Use of the cache of sources.
+enum class CacheUse {
+  kReplace,  ///< The given sources are all of the library's.
+  kRead,     ///< Only some are given, or other hosts work on the others.
+};
+
+/// Returns the names of sources, in order: for name_label_sources().
+[[nodiscard]] std::vector<std::string> source_names(
+    const std::vector<SourceFile>& sources);
+
 /// Makes the objects of sources in child processes. Returns the outcomes, in the order of
 /// the sources; nullopt: the user stopped it. With a cache, sources that have not changed
 /// are not read. Outcomes do not depend on `jobs`.
@@ -32,17 +42,18 @@ struct BuiltLibrary {
     const BuildInputs& inputs,
     const std::vector<SourceFile>& sources,
     int jobs,
+    CacheUse use,
     Console& console);
 
 /// Imports all sources and merges them. Damaged objects are made again. Errors: the
 /// inputs'; those of merge_library(); the user stopped it.
 /// Precondition: this process holds the library's lock.
-[[nodiscard]] Result<BuiltLibrary> build_library(const BuildInputs& inputs,
+[[nodiscard]] Result<BuiltLibrary> build_library(BuildInputs inputs,
                                                  int jobs,
                                                  Console& console);
 
 /// Merges outcomes, and makes damaged objects again. Errors: also that of an outcome
-/// whose objects could not be written. Precondition: as build_library().
+/// that the machine caused. Precondition: as build_library().
 [[nodiscard]] Result<BuiltLibrary> finish_library(const BuildInputs& inputs,
                                                   const std::vector<SourceFile>& sources,
                                                   std::vector<SourceOutcome> outcomes,

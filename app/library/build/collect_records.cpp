@@ -128,6 +128,11 @@ CollectedRecords collect_records(const BuildInputs& inputs,
       out.damaged.push_back(i);
       continue;
     }
+    if (records->empty()) {
+      out.remarks.push_back(sources[i].name +
+                            ": no part of its motions became a clip; see [segment] in "
+                            "library.toml");
+    }
     add_records(inputs, sources[i], outcome, std::move(*records), out);
   }
   return out;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/library/build/import_source.h"
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -70,24 +71,39 @@ Error with_name(Error error, const SourceFile& file) {
   return error;
 }
 
-/// Reads the stage if all of its objects exist.
+/// Reads the stage if all of its objects exist, whole.
 std::optional<SourceStage> find_stage(const BuildInputs& inputs, const std::string& key) {
   if (!has_object(inputs, key, ".json")) return std::nullopt;
   const auto text = recordings::read_file(inputs.library / object_path(key, ".json"));
   if (!text) return std::nullopt;
   auto stage = recordings::parse_source_stage(*text);
   if (!stage) return std::nullopt;
-  for (const ClipRecord& body : stage->bodies) {
-    if (!has_object(inputs, body.object_key, ".npz")) return std::nullopt;
+  for (std::size_t i = 0; i < stage->bodies.size(); ++i) {
+    std::error_code failed;
+    const auto bytes = fs::file_size(
+        inputs.library / object_path(stage->bodies[i].object_key, ".npz"), failed);
+    if (failed || bytes != stage->motion_bytes[i]) return std::nullopt;
   }
   return stage;
 }
 
-/// Makes the motion of one body an object.
-Result<ClipRecord> write_body(ObjectWriter& objects,
-                              const std::string& motion_key,
-                              const SourceFile& file,
-                              SourceMotion source) {
+/// Removes the objects of a stage, so that they are made again.
+void remove_stage(const BuildInputs& inputs,
+                  const SourceStage& stage,
+                  const std::string& key) {
+  std::error_code ignored;
+  fs::remove(inputs.library / object_path(key, ".json"), ignored);
+  for (const ClipRecord& body : stage.bodies) {
+    fs::remove(inputs.library / object_path(body.object_key, ".npz"), ignored);
+  }
+}
+
+/// Makes the motion of one body an object, and adds the body to the stage.
+Status add_body(ObjectWriter& objects,
+                const std::string& motion_key,
+                const SourceFile& file,
+                SourceMotion source,
+                SourceStage& stage) {
   auto clip = library::make_library_motion(source.motion, std::move(source.uncertainty));
   if (!clip) return without_path(clip.error(), file);
   const auto map = retarget::map_body(clip->motion.skeleton);
@@ -108,8 +124,10 @@ Result<ClipRecord> write_body(ObjectWriter& objects,
   const auto bytes = recordings::motion_object_bytes(*clip);
   if (!bytes) return without_path(bytes.error(), file);
   const Status ok = objects.write(body.object_key, ".npz", *bytes);
-  if (!ok) return ok.error();
-  return body;
+  if (!ok) return ok;
+  stage.bodies.push_back(std::move(body));
+  stage.motion_bytes.push_back(bytes->size());
+  return Done{};
 }
 
 /// Reads a source and makes the objects of its bodies.
@@ -130,9 +148,8 @@ Result<SourceStage> make_stage(const BuildInputs& inputs,
   for (SourceMotion& motion : *motions) {
     stage.remarks.insert(
         stage.remarks.end(), motion.remarks.begin(), motion.remarks.end());
-    auto body = write_body(objects, motion_key, file, std::move(motion));
-    if (!body) return body.error();
-    stage.bodies.push_back(std::move(*body));
+    const Status ok = add_body(objects, motion_key, file, std::move(motion), stage);
+    if (!ok) return ok.error();
   }
   return stage;
 }
@@ -166,17 +183,29 @@ Status import_clips(const BuildInputs& inputs,
                     const SourceFile& file,
                     const SourceStage& stage,
                     const std::string& source_id,
-                    const std::string& key,
-                    std::vector<std::string>& remarks) {
+                    const std::string& key) {
   const auto clips = make_clips(inputs, file, stage, source_id);
   if (!clips) return clips.error();
-  if (clips->records.empty()) {
-    remarks.push_back(
-        "no part of its motions became a clip: see [segment] in library.toml");
-  }
   if (const Status ok = objects.write(key, ".f32", clips->features); !ok) return ok;
   // The records last: if they exist, so do the features.
   return objects.write(key, ".json", recordings::clip_records_text(clips->records));
+}
+
+/// Makes all objects of a source. Returns its stage.
+Result<SourceStage> import_objects(const BuildInputs& inputs,
+                                   ObjectWriter& objects,
+                                   const SourceFile& file,
+                                   const KnownSource& known,
+                                   const SourceKeys& keys) {
+  // Twice, if an existing motion turns out to be damaged.
+  for (bool is_again = false;; is_again = true) {
+    auto stage = import_stage(inputs, objects, file, known, keys.motion);
+    if (!stage || stage->failure) return stage;
+    const Status ok = import_clips(inputs, objects, file, *stage, known.id, keys.clips);
+    if (ok) return stage;
+    if (is_again || objects.has_failed()) return ok.error();
+    remove_stage(inputs, *stage, keys.motion);
+  }
 }
 
 }  // namespace
@@ -188,22 +217,31 @@ std::optional<SourceOutcome> find_outcome(const BuildInputs& inputs,
   SourceOutcome out;
   out.name = file.name;
   out.source_id = source_id;
-  if (has_object(inputs, keys.clips, ".json") && has_object(inputs, keys.clips, ".f32")) {
-    out.clips_key = keys.clips;
+  const auto stage = find_stage(inputs, keys.motion);
+  if (!stage) return std::nullopt;
+  out.remarks = stage->remarks;
+  if (stage->failure) {
+    out.failure = with_name(*stage->failure, file);
     return out;
   }
-  const auto stage = find_stage(inputs, keys.motion);
-  if (!stage || !stage->failure) return std::nullopt;
-  out.failure = with_name(*stage->failure, file);
+  if (!has_object(inputs, keys.clips, ".json") ||
+      !has_object(inputs, keys.clips, ".f32")) {
+    return std::nullopt;
+  }
+  out.clips_key = keys.clips;
   return out;
 }
 
 ImportedSource import_source(const BuildInputs& inputs, const SourceFile& file) {
   ImportedSource out;
   out.outcome.name = file.name;
+  const auto fail = [&](const Error& error) {
+    out.outcome.failure = with_name(error, file);
+    out.outcome.is_machine_failure = error.code == Errc::kDevice;
+  };
   auto known = know_source(file);
   if (!known) {
-    out.outcome.failure = with_name(without_path(known.error(), file), file);
+    fail(without_path(known.error(), file));
     return out;
   }
   out.outcome.source_id = known->id;
@@ -215,20 +253,13 @@ ImportedSource import_source(const BuildInputs& inputs, const SourceFile& file) 
   const SourceKeys keys = keys_of(inputs, file, known->id);
   ObjectWriter objects(inputs.library);
   out.outcome.was_read = !find_stage(inputs, keys.motion);
-  const auto stage = import_stage(inputs, objects, file, *known, keys.motion);
+  const auto stage = import_objects(inputs, objects, file, *known, keys);
   if (!stage || stage->failure) {
-    out.outcome.failure = with_name(stage ? *stage->failure : stage.error(), file);
-    out.outcome.is_disk_failure = objects.has_failed();
+    fail(stage ? *stage->failure : stage.error());
+    if (objects.has_failed()) out.outcome.is_machine_failure = true;
     return out;
   }
   out.outcome.remarks = stage->remarks;
-  const Status ok = import_clips(
-      inputs, objects, file, *stage, known->id, keys.clips, out.outcome.remarks);
-  if (!ok) {
-    out.outcome.failure = with_name(ok.error(), file);
-    out.outcome.is_disk_failure = objects.has_failed();
-    return out;
-  }
   out.outcome.clips_key = keys.clips;
   return out;
 }

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <unistd.h>
 
@@ -25,10 +26,12 @@ namespace fs = std::filesystem;
 struct LockHolder {
   std::string host;
   int process = 0;
-  std::string start;  ///< In ticks since the host's start; empty: unknown.
+  std::string start = "-";  ///< In ticks since the host's start.
+  /// Number space of processes: containers of one host have several.
+  std::string space = "-";
 
   [[nodiscard]] std::string text() const {
-    return host + " " + std::to_string(process) + " " + start + "\n";
+    return host + " " + std::to_string(process) + " " + start + " " + space + "\n";
   }
 };
 
@@ -53,20 +56,32 @@ std::string start_of(int process) {
   return values ? value : std::string();
 }
 
+/// Returns the number space of this process: "pid:[4026531836]".
+std::string process_space() {
+  std::error_code failed;
+  const fs::path space = fs::read_symlink("/proc/self/ns/pid", failed);
+  return failed ? "-" : space.string();
+}
+
 LockHolder this_process() {
-  return {host_name(), getpid(), start_of(getpid())};
+  return {host_name(), getpid(), start_of(getpid()), process_space()};
 }
 
 std::optional<LockHolder> read_holder(const fs::path& file) {
   std::ifstream in(file);
   LockHolder out;
   if (!(in >> out.host >> out.process)) return std::nullopt;
-  in >> out.start;
+  in >> out.start >> out.space;
   return out;
 }
 
+/// Processes of another host or container cannot be seen.
+bool is_visible(const LockHolder& holder) {
+  return holder.host == host_name() && holder.space == process_space();
+}
+
 bool has_ended(const LockHolder& holder) {
-  return holder.host == host_name() && start_of(holder.process) != holder.start;
+  return is_visible(holder) && start_of(holder.process) != holder.start;
 }
 
 Error lock_error(const fs::path& file, const std::string& cause) {
@@ -77,28 +92,52 @@ Error lock_error(const fs::path& file, const std::string& cause) {
 }
 
 Error held_by(const fs::path& file, const LockHolder& holder) {
-  if (holder.host == host_name()) {
+  if (is_visible(holder)) {
     return bad_input(file.string(),
                      "process " + std::to_string(holder.process) +
                          " builds this library at the moment",
                      "wait until it has ended");
   }
-  return bad_input(file.string(),
-                   "process " + std::to_string(holder.process) + " of the host " +
-                       in_quotes(holder.host) + " builds this library",
-                   "wait until it has ended; if that host has stopped, delete the file");
+  return bad_input(
+      file.string(),
+      "process " + std::to_string(holder.process) + " of the host " +
+          in_quotes(holder.host) + " builds this library",
+      "wait until it has ended; if that host or container has stopped, delete "
+      "the file");
 }
 
-/// Moves the lock of a process that has ended out of the way. Returns false if the lock
-/// is another one by now; that one is put back.
-bool remove_lock_of(const LockHolder& ended, const fs::path& file, const fs::path& own) {
-  const fs::path removed = own.string() + ".ended";
-  if (::rename(file.c_str(), removed.c_str()) != 0) return errno == ENOENT;
-  const auto holder = read_holder(removed);
-  const bool is_same = !holder || holder->text() == ended.text();
-  if (!is_same) (void)::link(removed.c_str(), file.c_str());
-  ::unlink(removed.c_str());
-  return is_same;
+/// Removes the lock of a process that has ended. Only one process at a time does so, and
+/// compares the lock again before: a new lock is never removed.
+void remove_ended_lock(const LockHolder& ended,
+                       const fs::path& file,
+                       const fs::path& own) {
+  const fs::path guard = file.string() + ".takeover";
+  if (::link(own.c_str(), guard.c_str()) != 0) {
+    // Another process takes the lock over. If it was killed while doing so, its guard
+    // goes, and the next attempt succeeds.
+    const auto other = read_holder(guard);
+    if (other && has_ended(*other)) ::unlink(guard.c_str());
+    constexpr useconds_t kWait_us = 20'000;
+    ::usleep(kWait_us);
+    return;
+  }
+  const auto holder = read_holder(file);
+  if (holder && holder->text() == ended.text()) ::unlink(file.c_str());
+  ::unlink(guard.c_str());
+}
+
+/// Removes the files that killed processes of this host left while they took the lock.
+void remove_left_own_files(const fs::path& file) {
+  std::vector<fs::path> left;
+  std::error_code failed;
+  const std::string name = file.filename().string() + ".";
+  for (fs::directory_iterator at(file.parent_path(), failed), end; !failed && at != end;
+       at.increment(failed)) {
+    if (!at->path().filename().string().starts_with(name)) continue;
+    const auto holder = read_holder(at->path());
+    if (holder && has_ended(*holder)) left.push_back(at->path());
+  }
+  for (const fs::path& path : left) ::unlink(path.c_str());
 }
 
 }  // namespace
@@ -106,31 +145,39 @@ bool remove_lock_of(const LockHolder& ended, const fs::path& file, const fs::pat
 Result<LibraryLock> LibraryLock::take(const fs::path& library) {
   const fs::path file = recordings::LibraryPaths(library).lock();
   const LockHolder self = this_process();
+  remove_left_own_files(file);
   const fs::path own =
       file.string() + "." + self.host + "." + std::to_string(self.process);
   {
     std::ofstream out(own, std::ios::trunc);
     out << self.text();
     out.close();
-    if (!out) return lock_error(file, std::strerror(errno));
+    if (!out) {
+      const int error = errno;
+      ::unlink(own.c_str());
+      return lock_error(file, std::strerror(error));
+    }
   }
-  constexpr int kAttempts = 10;
-  std::optional<Error> failure;
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    failure.reset();
-    if (::link(own.c_str(), file.c_str()) == 0) break;
+  constexpr int kAttempts = 100;
+  Error failure = lock_error(file, "other processes take it all the time");
+  bool is_taken = false;
+  for (int attempt = 0; attempt < kAttempts && !is_taken; ++attempt) {
+    if (::link(own.c_str(), file.c_str()) == 0) {
+      is_taken = true;
+      break;
+    }
     if (errno != EEXIST) {
       failure = lock_error(file, std::strerror(errno));
       break;
     }
-    // A lock without content belongs to no process: the content comes before the name.
-    const LockHolder holder = read_holder(file).value_or(LockHolder{self.host, 0, "-"});
-    failure = held_by(file, holder);
-    if (!has_ended(holder)) break;
-    (void)remove_lock_of(holder, file, own);
+    const auto holder = read_holder(file);
+    if (!holder) continue;  // Given back meanwhile.
+    failure = held_by(file, *holder);
+    if (!has_ended(*holder)) break;
+    remove_ended_lock(*holder, file, own);
   }
   ::unlink(own.c_str());
-  if (failure) return *failure;
+  if (!is_taken) return failure;
   return LibraryLock(file, self.process);
 }
 
@@ -139,7 +186,9 @@ LibraryLock::LibraryLock(LibraryLock&& other) noexcept
 
 LibraryLock::~LibraryLock() {
   if (file_.empty() || getpid() != process_) return;
-  ::unlink(file_.c_str());
+  // A person may have deleted the lock, and another process taken it.
+  const auto holder = read_holder(file_);
+  if (holder && holder->text() == this_process().text()) ::unlink(file_.c_str());
 }
 
 }  // namespace marey::app

@@ -11,7 +11,7 @@ namespace marey::app {
 
 /// The lock of a library, LIB/LOCK: one build or merge at a time, also on file systems
 /// shared by several hosts, where only link(2) and rename(2) are atomic. The file states
-/// the host, the process and the start of the process.
+/// the host, the process, its start, and its container's number space of processes.
 class LibraryLock {
  public:
   /// Takes the lock. The lock of a process of this host that has ended is taken over.

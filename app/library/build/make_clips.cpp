@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -92,15 +93,23 @@ struct ClipRange {
   std::vector<ClipEvent> events;  ///< Idle frames that were cut next to it.
 };
 
-/// Returns the labels by people of the whole motion, to divide it by.
+/// Returns the labels of the whole motion, to divide it by: those of the source, and
+/// those by people (name_label_sources()).
 std::vector<ClipLabel> labels_of_motion(const BuildInputs& inputs,
                                         const SourceFile& file,
                                         const ClipRecord& body) {
-  if (!inputs.labels) return {};
+  if (!inputs.segment_labels) return {};
+  LibraryLabels labels;
+  for (const LabelFile& table : inputs.segment_labels->files) {
+    LabelFile& own = labels.files.emplace_back();
+    own.name = table.name;
+    std::ranges::copy_if(table.rows, std::back_inserter(own.rows), [&](const auto& row) {
+      return row.target == file.name;
+    });
+  }
   std::vector<ClipRecord> whole = {body};
   whole[0].provenance.path = file.name;
-  whole[0].clip_id.clear();
-  (void)apply_labels(*inputs.labels, whole);
+  (void)apply_labels(labels, whole);
   return whole[0].labels;
 }
 

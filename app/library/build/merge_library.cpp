@@ -3,6 +3,7 @@
 #include "app/library/build/merge_library.h"
 
 #include <filesystem>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "app/library/build/failed_sources.h"
 #include "app/library/build/relate_clips.h"
 #include "app/library/build/search_rows.h"
+#include "core/base/printable.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/base/sha256.h"
 #include "recordings/library/clip_record_file.h"
@@ -45,14 +47,15 @@ std::optional<MergedLibrary> find_merged(const BuildInputs& inputs,
                                          const std::string& digest) {
   const LibraryPaths paths(inputs.library);
   std::error_code failed;
-  if (head.inputs != digest || !fs::is_directory(paths.search(head.search), failed) ||
+  if (head.inputs != digest || !has_search_rows(inputs, head.search) ||
       !fs::is_regular_file(recordings::version_path(inputs.library, head.version),
                            failed)) {
     return std::nullopt;
   }
   MergedLibrary out;
   out.head = head;
-  out.was_current = true;
+  std::istringstream lines(head.remarks);
+  for (std::string line; std::getline(lines, line);) out.remarks.push_back(line);
   return out;
 }
 
@@ -148,14 +151,17 @@ Result<MergedLibrary> merge_library(const BuildInputs& inputs,
   }
   MergedLibrary out;
   out.head = head;
-  out.remarks = std::move(clips.remarks);
   std::error_code failed;
   if (!old && fs::exists(paths.index(), failed)) {
     out.remarks.push_back(old.error().where + ": " + old.error().cause +
                           "; the index was made again");
   }
-  const Status related = relate_clips(inputs, head.search, clips.records, out.remarks);
+  const Status related = relate_clips(inputs, head.search, clips.records, clips.remarks);
   if (!related) return related.error();
+  for (const std::string& remark : clips.remarks) {
+    out.head.remarks += printable(remark) + "\n";
+    out.remarks.push_back(remark);
+  }
   count_clips(clips.records, out.head);
   if (const Status ok = write_failed_sources(inputs, outcomes); !ok) return ok.error();
   if (const Status ok = write_version(inputs, clips.records, out); !ok) return ok.error();

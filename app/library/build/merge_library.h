@@ -16,7 +16,6 @@ namespace marey::app {
 struct MergedLibrary {
   recordings::IndexHead head;  ///< Head of the index.
   bool is_new_version = false;
-  bool was_current = false;  ///< Nothing changed, and nothing was written.
   std::vector<std::string> remarks;
 };
 

@@ -50,6 +50,7 @@ Result<SearchWriters> create_writers(const fs::path& folder) {
 }
 
 bool has_rows(const fs::path& folder) {
+  // Sizes and headers are checked, not all values.
   return RowsFile::open(folder / "features.f32", library::kFeatureStride) &&
          RowsFile::open(folder / "windows.f32", library::kWindowFloats) &&
          RowsFile::open(folder / "wholes.f32", library::kWholeFloats);
@@ -66,12 +67,16 @@ std::string search_folder_name(const CollectedRecords& clips) {
   return recordings::sha256(text).substr(0, kDigits);
 }
 
+bool has_search_rows(const BuildInputs& inputs, const std::string& name) {
+  return !name.empty() && has_rows(recordings::LibraryPaths(inputs.library).search(name));
+}
+
 Status write_search_rows(const BuildInputs& inputs,
                          const CollectedRecords& clips,
                          const std::string& name,
                          std::vector<std::size_t>& damaged) {
   const fs::path folder = recordings::LibraryPaths(inputs.library).search(name);
-  if (has_rows(folder)) return Done{};
+  if (has_search_rows(inputs, name)) return Done{};
   auto writers = create_writers(folder);
   if (!writers) return writers.error();
   std::optional<RowsFile> object;

@@ -14,6 +14,9 @@ namespace marey::app {
 /// that depend on the clips, their order and their features.
 [[nodiscard]] std::string search_folder_name(const CollectedRecords& clips);
 
+/// Returns true if the rows in search/NAME exist and are whole, by their sizes.
+[[nodiscard]] bool has_search_rows(const BuildInputs& inputs, const std::string& name);
+
 /// Writes the rows for searches of all clips into search/NAME, unless they exist: their
 /// features, windows and whole clips. Reads one object of features at a time.
 /// Errors: (kBadInput) an object of features is damaged; its source is added to `damaged`

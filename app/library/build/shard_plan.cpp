@@ -13,7 +13,9 @@
 #include "app/shell/program_name.h"
 #include "core/base/assert.h"
 #include "core/base/format_text.h"
+#include "core/base/printable.h"
 #include "recordings/base/atomic_file.h"
+#include "recordings/base/sha256.h"
 #include "recordings/library/library_paths.h"
 
 namespace marey::app {
@@ -24,6 +26,7 @@ using ShardJson = nlohmann::ordered_json;
 using recordings::OnDisk;
 
 constexpr const char* kPlanFile = "plan.json";
+constexpr std::uint64_t kMaxShards = 9999;
 
 fs::path shard_file(const fs::path& library, int shard, const char* extension) {
   return recordings::LibraryPaths(library).shards() /
@@ -46,13 +49,21 @@ std::vector<std::string> lines_of(const std::string& text) {
   return out;
 }
 
-std::string source_line(const SourceFile& file) {
+Result<std::string> source_line(const SourceFile& file) {
   const ShardJson json = {{"path", file.path.string()},
                           {"name", file.name},
                           {"kind", file.kind},
                           {"source", file.source},
                           {"bytes", file.bytes}};
-  return json.dump(-1, ' ', false, ShardJson::error_handler_t::replace) + "\n";
+  std::string line = json.dump(-1, ' ', false, ShardJson::error_handler_t::replace);
+  // A path with replaced bytes names no file.
+  const ShardJson again = ShardJson::parse(line, nullptr, false);
+  if (again.at("path") != ShardJson(file.path.string())) {
+    return bad_input(printable(file.path.string()),
+                     "the path is not UTF-8, and cannot be a part of a plan",
+                     "rename the file or its folder, or use marey library build");
+  }
+  return line + "\n";
 }
 
 bool read_source_line(const std::string& line, SourceFile& out) {
@@ -97,14 +108,24 @@ std::vector<std::vector<SourceFile>> divide_sources(std::vector<SourceFile> sour
 Status write_shard_plan(const fs::path& library,
                         const ShardPlan& plan,
                         const std::vector<std::vector<SourceFile>>& lists) {
-  for (std::size_t i = 0; i < lists.size(); ++i) {
-    std::string text;
-    for (const SourceFile& file : lists[i]) text += source_line(file);
+  std::vector<std::string> texts;
+  std::string all = plan.inputs + "\n";
+  for (const auto& list : lists) {
+    std::string& text = texts.emplace_back();
+    for (const SourceFile& file : list) {
+      const auto line = source_line(file);
+      if (!line) return line.error();
+      text += *line;
+    }
+    all += text + "\n";
+  }
+  const std::string id = recordings::sha256(all);
+  for (std::size_t i = 0; i < texts.size(); ++i) {
     const fs::path path = shard_file(library, static_cast<int>(i) + 1, ".todo");
-    const Status ok = recordings::write_file(path, text, OnDisk::kNow);
+    const Status ok = recordings::write_file(path, id + "\n" + texts[i], OnDisk::kNow);
     if (!ok) return ok;
   }
-  const ShardJson json = {{"inputs", plan.inputs}, {"shards", plan.shards}};
+  const ShardJson json = {{"inputs", plan.inputs}, {"shards", plan.shards}, {"id", id}};
   return recordings::write_file(recordings::LibraryPaths(library).shards() / kPlanFile,
                                 json.dump(1) + "\n",
                                 OnDisk::kNow);
@@ -122,20 +143,35 @@ Result<ShardPlan> read_shard_plan(const fs::path& library) {
   const auto text = recordings::read_file(file);
   if (!text) return text.error();
   const ShardJson root = ShardJson::parse(*text, nullptr, false);
-  if (!root.is_object() || !root.contains("inputs") || !root.at("inputs").is_string() ||
-      !root.contains("shards") || !root.at("shards").is_number_unsigned()) {
+  const auto is_text = [&](const char* key) {
+    return root.contains(key) && root.at(key).is_string();
+  };
+  const bool is_plan = root.is_object() && is_text("inputs") && is_text("id") &&
+                       root.contains("shards") && root.at("shards").is_number_unsigned();
+  const auto shards = is_plan ? root.at("shards").get<std::uint64_t>() : 0;
+  if (shards < 1 || shards > kMaxShards) {
     return damaged_plan(file, "the plan is damaged");
   }
-  return ShardPlan{root.at("inputs").get<std::string>(), root.at("shards").get<int>()};
+  return ShardPlan{root.at("inputs").get<std::string>(),
+                   static_cast<int>(shards),
+                   root.at("id").get<std::string>()};
 }
 
-Result<std::vector<SourceFile>> read_shard_list(const fs::path& library, int shard) {
+Result<std::vector<SourceFile>> read_shard_list(const fs::path& library,
+                                                const ShardPlan& plan,
+                                                int shard,
+                                                std::size_t source_count) {
   const fs::path file = shard_file(library, shard, ".todo");
   const auto text = recordings::read_file(file);
   if (!text) return text.error();
+  const std::vector<std::string> lines = lines_of(*text);
+  if (lines.empty() || lines.front() != plan.id) {
+    return damaged_plan(file, "the list belongs to another plan");
+  }
   std::vector<SourceFile> out;
-  for (const std::string& line : lines_of(*text)) {
-    if (!read_source_line(line, out.emplace_back())) {
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    SourceFile& source = out.emplace_back();
+    if (!read_source_line(lines[i], source) || source.source >= source_count) {
       return damaged_plan(file, "the list of the shard is damaged");
     }
   }
@@ -143,27 +179,40 @@ Result<std::vector<SourceFile>> read_shard_list(const fs::path& library, int sha
 }
 
 Status write_shard_outcomes(const fs::path& library,
+                            const ShardPlan& plan,
                             int shard,
                             const std::vector<SourceOutcome>& outcomes) {
-  std::string text;
+  const auto current = read_shard_plan(library);
+  if (!current || current->id != plan.id) {
+    return bad_input(library.string(),
+                     "the work was divided again while this shard was worked on",
+                     "work on the shards of the new plan; finished objects are kept");
+  }
+  std::string text = plan.id + "\n";
   for (const SourceOutcome& outcome : outcomes) text += outcome_text(outcome) + "\n";
   return recordings::write_file(shard_file(library, shard, ".jsonl"), text, OnDisk::kNow);
 }
 
 Result<std::vector<SourceOutcome>> read_shard_outcomes(const fs::path& library,
+                                                       const ShardPlan& plan,
                                                        int shard) {
   const fs::path file = shard_file(library, shard, ".jsonl");
   const auto text = recordings::read_file(file);
   if (!text) return text.error();
+  const auto damaged = [&](const char* cause) {
+    return bad_input(file.string(),
+                     cause,
+                     "delete the file, then call marey library work LIB --shard " +
+                         std::to_string(shard));
+  };
+  const std::vector<std::string> lines = lines_of(*text);
+  if (lines.empty() || lines.front() != plan.id) {
+    return damaged("the outcomes belong to another plan");
+  }
   std::vector<SourceOutcome> out;
-  for (const std::string& line : lines_of(*text)) {
-    auto outcome = parse_outcome(line);
-    if (!outcome) {
-      return bad_input(file.string(),
-                       "the outcomes of the shard are damaged",
-                       "delete the file, then call marey library work LIB --shard " +
-                           std::to_string(shard));
-    }
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    auto outcome = parse_outcome(lines[i]);
+    if (!outcome) return damaged("the outcomes of the shard are damaged");
     out.push_back(std::move(*outcome));
   }
   return out;

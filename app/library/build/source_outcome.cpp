@@ -51,7 +51,7 @@ std::string outcome_text(const SourceOutcome& outcome) {
       {"failure", outcome.failure ? error_json(*outcome.failure) : OutcomeJson()},
       {"remarks", outcome.remarks},
       {"was_read", outcome.was_read},
-      {"is_disk_failure", outcome.is_disk_failure}};
+      {"is_machine_failure", outcome.is_machine_failure}};
   return json.dump(-1, ' ', false, OutcomeJson::error_handler_t::replace);
 }
 
@@ -76,7 +76,7 @@ std::optional<SourceOutcome> parse_outcome(std::string_view text) {
     }
   }
   out.was_read = read_flag(root, "was_read");
-  out.is_disk_failure = read_flag(root, "is_disk_failure");
+  out.is_machine_failure = read_flag(root, "is_machine_failure");
   return out;
 }
 

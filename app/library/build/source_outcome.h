@@ -20,9 +20,9 @@ struct SourceOutcome {
   std::optional<Error> failure;
   std::vector<std::string> remarks;
   bool was_read = false;  ///< The source was read: its motion was no object yet.
-  /// The objects could not be written: a failure of the library's disk, not of the
-  /// source.
-  bool is_disk_failure = false;
+  /// The machine failed, not the source: its disk, its memory, its processes. The source
+  /// may succeed in the next build.
+  bool is_machine_failure = false;
 };
 
 /// Returns an outcome as one line of JSON, without its end.

@@ -6,26 +6,34 @@
 #include <system_error>
 #include <utility>
 
+#include "core/base/extension.h"
+
 namespace marey::app {
 
 namespace fs = std::filesystem;
 
-Result<LibraryLabels> read_library_labels(const fs::path& library) {
-  std::vector<fs::path> tables;
+Result<std::vector<fs::path>> label_tables(const fs::path& library) {
+  std::vector<fs::path> out;
   std::error_code failed;
   for (fs::directory_iterator at(library / "labels", failed), end; !failed && at != end;
        at.increment(failed)) {
-    const std::string name = at->path().filename().string();
-    if (name.ends_with(".csv") && !name.starts_with('.')) tables.push_back(at->path());
+    const bool is_hidden = at->path().filename().string().starts_with('.');
+    if (kind_by_extension(at->path()) == ".csv" && !is_hidden) out.push_back(at->path());
   }
   if (failed && failed != std::errc::no_such_file_or_directory) {
     return bad_input((library / "labels").string(),
                      "the folder cannot be read: " + failed.message(),
                      "check the folder and its permissions");
   }
-  std::ranges::sort(tables);
+  std::ranges::sort(out);
+  return out;
+}
+
+Result<LibraryLabels> read_library_labels(const fs::path& library) {
+  const auto tables = label_tables(library);
+  if (!tables) return tables.error();
   LibraryLabels out;
-  for (const fs::path& table : tables) {
+  for (const fs::path& table : *tables) {
     if (table.filename() == recordings::kVerdictFile) {
       auto verdicts = recordings::read_verdicts(table);
       if (!verdicts) return verdicts.error();

@@ -24,6 +24,12 @@ struct LibraryLabels {
   std::vector<recordings::VerdictCorrection> verdicts;
 };
 
+/// Returns the tables of labels/, in ascending order: files that end with .csv in any
+/// case, without hidden ones. No such folder: none. Errors (kBadInput): the folder cannot
+/// be read.
+[[nodiscard]] Result<std::vector<std::filesystem::path>> label_tables(
+    const std::filesystem::path& library);
+
 /// Reads labels/*.csv of a library, and its labels/verdicts.csv. No such folder: no
 /// labels. Hidden files are left out. Errors (kBadInput): the first mistake in a table,
 /// with file, line and column. Linear.

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recordings/library/source_stage.h"
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -20,6 +22,7 @@ SourceStage two_bodies() {
     body.figures.push_back({"residual_mm", 3.25, {}, "", {}});
     body.labels.push_back({0.5, 1.5, "turn", "file", 1.0});
     body.events.push_back({12, "left.strike"});
+    out.motion_bytes.push_back(4711);
   }
   out.remarks = {"the rate is 120 Hz by the table"};
   return out;
@@ -33,6 +36,7 @@ TEST(SourceStage, ReadsWhatItWrote) {
   EXPECT_EQ(read->bodies[1].body, "ben");
   EXPECT_EQ(read->bodies[1].figures.front().value, 3.25);
   EXPECT_EQ(read->remarks.size(), 1U);
+  EXPECT_EQ(read->motion_bytes, (std::vector<std::uint64_t>{4711, 4711}));
   EXPECT_FALSE(read->failure);
   EXPECT_EQ(source_stage_text(*read), text);
 }
@@ -50,6 +54,9 @@ TEST(SourceStage, ADamagedTextIsNoStage) {
   for (std::size_t size = 0; size + 2 < text.size(); ++size) {
     EXPECT_FALSE(parse_source_stage(text.substr(0, size))) << size;
   }
+  SourceStage without_size = two_bodies();
+  without_size.motion_bytes.pop_back();
+  EXPECT_FALSE(parse_source_stage(source_stage_text(without_size)));
   EXPECT_FALSE(parse_source_stage("[]"));
   EXPECT_FALSE(parse_source_stage(R"({"bodies": [1], "remarks": [], "failure": null})"));
 }

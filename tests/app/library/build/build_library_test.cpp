@@ -187,6 +187,57 @@ TEST(LibraryBuild, MakesDamagedObjectsAgain) {
   EXPECT_EQ(built_files(library), whole);
 }
 
+TEST(LibraryBuild, NoticesAMissingOrShortMotionAlthoughTheIndexIsCurrent) {
+  const WalkLibrary walks(2);
+  const fs::path library = walks.make("library");
+  ASSERT_EQ(build(library).exit_code, 0);
+  const auto whole = built_files(library);
+  for (const auto& [name, digest] : whole) {
+    if (!name.ends_with(".npz") && !name.starts_with("search")) continue;
+    fs::resize_file(library / name, fs::file_size(library / name) - 1);
+    EXPECT_EQ(build(library).exit_code, 0) << name;
+    EXPECT_EQ(built_files(library), whole) << name;
+    fs::remove(library / name);
+    EXPECT_EQ(build(library).exit_code, 0) << name;
+    EXPECT_EQ(built_files(library), whole) << name;
+  }
+}
+
+TEST(LibraryBuild, KeepsRemarksWhileNothingChanges) {
+  const WalkLibrary walks(2);
+  fs::copy_file(walks.walk(1), walks.walks() / "copy.bvh");
+  const fs::path library = walks.make("library");
+  const ProgramRun first = build(library);
+  EXPECT_FALSE(result(first).at("remarks").empty());
+  EXPECT_EQ(result(build(library)).at("remarks"), result(first).at("remarks"));
+}
+
+TEST(LibraryBuild, ChecksTheNamesOfLimits) {
+  const WalkLibrary walks(1);
+  const ProgramRun run = build(walks.make("library", "[quality]\nslidee = [1, 2]\n"));
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("slide_cm_s"), std::string::npos) << run.err;
+}
+
+TEST(LibraryBuild, LabelsOfAnotherSourceDivideNoMotion) {
+  const WalkLibrary walks(2);
+  fs::create_directories(walks.walks() / "other");
+  fs::copy_file(walks.walk(2), walks.walks() / "other" / "01.bvh");
+  const fs::path library = walks.make("library", "[segment]\nby = \"labels\"\n");
+  const std::string header = "clip_or_source,start_s,end_s,label,by,sure\n";
+  // "01" fits two sources, and the other name one.
+  write_text(library / "labels" / "anna.csv",
+             header + "01,0.2,0.6,ambiguous,,\n02,0.3,1.1,turn,,\n");
+  const ProgramRun run = build(library);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto records = recordings::read_library_records(LibraryPaths(library).index());
+  ASSERT_TRUE(records);
+  ASSERT_EQ(records->size(), 1U);
+  EXPECT_EQ(records->front().first_frame, 9);
+  EXPECT_EQ(records->front().last_frame, 33);
+  EXPECT_NE(result(run).at("remarks").dump().find("anna.csv"), std::string::npos);
+}
+
 TEST(LibraryBuild, TwoBuildsAtOnceDoNotMeet) {
   const WalkLibrary walks(1);
   const fs::path library = walks.make("library");

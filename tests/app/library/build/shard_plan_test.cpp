@@ -76,7 +76,7 @@ TEST(ShardPlan, ReadsWhatItWrote) {
   ASSERT_TRUE(plan);
   EXPECT_EQ(plan->inputs, "digest");
   EXPECT_EQ(unfinished_shards(library.path(), *plan), (std::vector<int>{1, 2}));
-  const auto list = read_shard_list(library.path(), 2);
+  const auto list = read_shard_list(library.path(), *plan, 2, 1);
   ASSERT_TRUE(list);
   ASSERT_EQ(list->size(), lists[1].size());
   EXPECT_EQ(list->front().path, lists[1].front().path);
@@ -84,12 +84,21 @@ TEST(ShardPlan, ReadsWhatItWrote) {
   SourceOutcome outcome;
   outcome.name = "a \"quoted\"\nname";
   outcome.failure = bad_input("line 3", "no number", "correct it");
-  ASSERT_TRUE(write_shard_outcomes(library.path(), 2, {outcome}));
-  const auto outcomes = read_shard_outcomes(library.path(), 2);
+  ASSERT_TRUE(write_shard_outcomes(library.path(), *plan, 2, {outcome}));
+  const auto outcomes = read_shard_outcomes(library.path(), *plan, 2);
   ASSERT_TRUE(outcomes);
   EXPECT_EQ(outcomes->front().name, outcome.name);
   EXPECT_EQ(outcomes->front().failure->message(), outcome.failure->message());
   EXPECT_EQ(unfinished_shards(library.path(), *plan), std::vector<int>{1});
+  // Outcomes and lists of another plan are recognised.
+  const auto other = divide_sources(random_sources(2, 5), 2);
+  ASSERT_TRUE(write_shard_plan(library.path(), {"digest", 2}, other));
+  EXPECT_FALSE(write_shard_outcomes(library.path(), *plan, 1, {outcome}));
+  const auto current = read_shard_plan(library.path());
+  ASSERT_TRUE(current);
+  EXPECT_FALSE(read_shard_outcomes(library.path(), *current, 2));
+  EXPECT_FALSE(read_shard_list(library.path(), *plan, 2, 1));
+  EXPECT_FALSE(read_shard_list(library.path(), *current, 2, 0)) << "an unknown source";
   remove_shards(library.path());
   EXPECT_FALSE(read_shard_plan(library.path()));
 }
