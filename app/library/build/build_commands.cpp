@@ -17,6 +17,7 @@
 #include "app/library/build/shard_plan.h"
 #include "app/library/sources/list_sources.h"
 #include "app/shell/option_checks.h"
+#include "app/shell/program_name.h"
 #include "app/shell/stop_signal.h"
 #include "core/base/format_text.h"
 #include "recordings/base/atomic_file.h"
@@ -82,6 +83,11 @@ Exit report_build(const Result<BuiltLibrary>& built,
        format_text(
            "%zu of %zu sources gave no clip", built->failures.size(), built->sources),
        "read " + folder + ", where each has its cause"});
+}
+
+/// Returns the library's folder as a word of a shell.
+std::string in_shell(const BuildInputs& inputs) {
+  return shell_command({inputs.library.string()});
 }
 
 void print_slurm_script(const BuildInputs& inputs, int shards) {
@@ -278,11 +284,14 @@ Exit run_library_plan(const LibraryBuildArguments& args, Console& console) {
   const Status ok =
       write_shard_plan(inputs->library, {inputs->digest, args.shards}, lists);
   if (!ok) return console.fail(ok.error());
+  const std::string library = in_shell(*inputs);
   console.say(
-      format_text("%zu sources in %d shards; next: marey library work LIB "
-                  "--shard N for each, then marey library merge LIB",
+      format_text("%zu sources in %d shards; next: marey library work %s "
+                  "--shard N for each, then marey library merge %s",
                   listing->files.size(),
-                  args.shards));
+                  args.shards,
+                  library.c_str(),
+                  library.c_str()));
   return Exit::kOk;
 }
 
@@ -306,7 +315,7 @@ Exit run_library_merge(const LibraryBuildArguments& args, Console& console) {
         inputs->library.string(),
         format_text("%zu of %d shards are not finished: ", open.size(), plan->shards) +
             list_of(open),
-        "run marey library work LIB --shard N for these"));
+        "run marey library work " + in_shell(*inputs) + " --shard N for these"));
   }
   std::vector<SourceFile> sources;
   std::vector<SourceOutcome> outcomes;

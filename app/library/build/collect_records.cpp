@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <system_error>
 #include <tuple>
 #include <utility>
@@ -80,6 +81,7 @@ void add_records(const BuildInputs& inputs,
                  const SourceFile& file,
                  const SourceOutcome& outcome,
                  std::vector<ClipRecord> records,
+                 std::set<std::string>& ids,
                  CollectedRecords& out) {
   const LibrarySource& source = inputs.settings.sources[file.source];
   const auto entry = inputs.find_in_table(file);
@@ -92,11 +94,17 @@ void add_records(const BuildInputs& inputs,
     add_labels(labels_of_name(file, source, record.duration_s()), record);
     if (entry) add_labels(labels_of_index(*entry, record.duration_s()), record);
     sort_labels(record);
-    out.feature_keys.push_back(outcome.clips_key);
-    out.first_rows.push_back(row);
+    const std::size_t first_row = row;
     row += static_cast<std::size_t>(
         library::feature_span(record.first_frame, record.last_frame, record.rate_hz)
             .count);
+    if (!ids.insert(record.clip_id).second) {
+      // Bodies of one name; an index needs different ids.
+      out.remarks.push_back(file.name + ": two of its clips are the same; one is kept");
+      continue;
+    }
+    out.feature_keys.push_back(outcome.clips_key);
+    out.first_rows.push_back(first_row);
     out.records.push_back(std::move(record));
   }
 }
@@ -108,6 +116,7 @@ CollectedRecords collect_records(const BuildInputs& inputs,
                                  const std::vector<SourceOutcome>& outcomes) {
   CollectedRecords out;
   std::map<std::string, std::size_t> first_with;
+  std::set<std::string> ids;
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const SourceOutcome& outcome = outcomes[i];
     if (outcome.clips_key.empty()) continue;
@@ -133,7 +142,7 @@ CollectedRecords collect_records(const BuildInputs& inputs,
                             ": no part of its motions became a clip; see [segment] in "
                             "library.toml");
     }
-    add_records(inputs, sources[i], outcome, std::move(*records), out);
+    add_records(inputs, sources[i], outcome, std::move(*records), ids, out);
   }
   return out;
 }
