@@ -249,7 +249,8 @@ TEST(LibraryBuild, TwoBuildsAtOnceDoNotMeet) {
   // A process of this host that has ended.
   std::string host(256, '\0');
   ASSERT_EQ(gethostname(host.data(), host.size()), 0);
-  write_text(lock, std::string(host.c_str()) + " 999999999 1\n");
+  const std::string space = fs::read_symlink("/proc/self/ns/pid").string();
+  write_text(lock, std::string(host.c_str()) + " 999999999 1 " + space + "\n");
   EXPECT_EQ(build(library).exit_code, 0);
   EXPECT_FALSE(fs::exists(lock));
 }
