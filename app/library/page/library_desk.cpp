@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "app/library/check/failed_source.h"
 #include "app/library/page/clip_scene.h"
 #include "app/library/page/page_corrections.h"
 #include "live/page/page_scene.h"
@@ -21,17 +22,6 @@ namespace fs = std::filesystem;
 constexpr int kNeighbours = 3;
 constexpr std::size_t kKeptScenes = 12;
 constexpr std::size_t kMaxDrawings = 4096;
-
-/// Counts the reports of sources that gave no clip.
-int count_failed(const fs::path& library) {
-  int count = 0;
-  std::error_code problem;
-  for (fs::directory_iterator at(library / "failed", problem), end; !problem && at != end;
-       at.increment(problem)) {
-    if (at->path().extension() == ".txt") ++count;
-  }
-  return count;
-}
 
 double row_time_s(const ClipRecord& clip, int row) {
   return first_row_s(clip.first_frame, clip.rate_hz) + 0.1 * row;
@@ -54,8 +44,6 @@ LibraryDesk::Stamp LibraryDesk::stamp() const {
   if (!ignored) out.index = time;
   const auto bytes = fs::file_size(index, ignored);
   if (!ignored) out.index_bytes = bytes;
-  const auto search = fs::last_write_time(library_ / "search" / "features.f32", ignored);
-  if (!ignored) out.search = search;
   return out;
 }
 
@@ -69,7 +57,9 @@ void LibraryDesk::open() {
   ++state_.revision;
   state_.clips = 0;
   state_.trouble.clear();
-  state_.failed = count_failed(library_);
+  // A report that cannot be read hides no clip: `marey library check` states the reason.
+  const auto failed = read_failed_sources(library_);
+  state_.failed = failed ? static_cast<int>(failed->size()) : 0;
   const auto settings = recordings::read_library(library_ / "library.toml");
   state_.name =
       settings && !settings->name.empty() ? settings->name : library_.filename().string();

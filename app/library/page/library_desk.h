@@ -41,11 +41,10 @@ class LibraryDesk {
   [[nodiscard]] const LibraryState& state() const { return state_; }
 
  private:
-  /// Files of a build.
+  /// Time and size of the index. A build replaces it last.
   struct Stamp {
     std::filesystem::file_time_type index{};
     std::uintmax_t index_bytes = 0;
-    std::filesystem::file_time_type search{};
     bool operator==(const Stamp&) const = default;
   };
   using Answer = Result<std::string>;

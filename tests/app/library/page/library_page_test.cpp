@@ -19,7 +19,10 @@
 #include "recordings/base/atomic_file.h"
 #include "recordings/library/label_file.h"
 #include "recordings/library/verdict_file.h"
+#include "tests/app/library/build/walk_library.h"
 #include "tests/app/library/page/page_library.h"
+#include "tests/support/program/paths.h"
+#include "tests/support/program/run_program.h"
 #include "tests/support/program/scratch_folder.h"
 #include "tests/support/program/web_socket.h"
 
@@ -39,14 +42,15 @@ class LibraryPage : public ::testing::Test {
     testing::write_page_library(folder.path(), testing::sample_page_clips(clips));
     start();
   }
-  void start() {
+  void start() { start(folder.path()); }
+  void start(const std::filesystem::path& place) {
     PageServerOptions options;
     options.port = 0;
     options.open = false;
     auto started = start_page(options);
     ASSERT_TRUE(started) << started.error().message();
     page = std::make_unique<PageServer>(*std::move(started));
-    desk = std::make_unique<LibraryDesk>(folder.path(), "", page->server);
+    desk = std::make_unique<LibraryDesk>(place, "", page->server);
     socket = std::make_unique<WebSocketClient>(page->server.port());
     ASSERT_EQ(testing::status(socket->upgrade()), 101);
     library = receive();
@@ -158,6 +162,22 @@ TEST_F(LibraryPage, ShowsAClipWithItsNeighbours) {
   EXPECT_TRUE(clip(1, true)["mirrored"].get<bool>());
 }
 
+TEST_F(LibraryPage, ShowsNeighboursOfABuiltLibrary) {
+  const WalkLibrary walks(3);
+  const std::filesystem::path place = walks.make("library");
+  ASSERT_TRUE(recordings::write_file(walks.walks() / "deep/broken.bvh", "HIERARCHY"));
+  const auto built =
+      testing::run_program(testing::program(), {"library", "build", place.string()});
+  ASSERT_TRUE(std::filesystem::exists(place / "library.sqlite")) << built.err;
+  start(place);
+  EXPECT_EQ(library["clips"], 3);
+  EXPECT_EQ(library["failed"], 1);
+  const Json shown = clip(0);  // The shortest: all others are long enough.
+  EXPECT_EQ(shown["neighbour_trouble"], "");
+  EXPECT_EQ(shown["neighbours"].size(), 2U);
+  EXPECT_EQ(shown["scene"]["skeletons"].size(), 3U);
+}
+
 TEST_F(LibraryPage, RemovesOldMotions) {
   open();
   const std::string first = clip(0)["scene"]["file"]["block"];
@@ -243,10 +263,9 @@ TEST_F(LibraryPage, ReadsNoObjectOutsideTheLibrary) {
 }
 
 TEST_F(LibraryPage, ListsWithoutSearchFiles) {
-  open();
+  testing::write_page_library(folder.path(), testing::sample_page_clips(kClips));
   std::filesystem::remove_all(folder / "search");
-  desk->look();
-  library = receive();
+  start();
   EXPECT_EQ(library["clips"], kClips);
   const Json shown = clip(0);
   EXPECT_NE(shown["neighbour_trouble"], "");
