@@ -30,7 +30,9 @@ double row_time_s(const ClipRecord& clip, int row) {
 }  // namespace
 
 LibraryDesk::LibraryDesk(fs::path library, std::string query, live::WebServer& server)
-    : library_(std::move(library)), server_(server), motions_(library_) {
+    : library_(std::move(library)),
+      server_(server),
+      motions_(library_, OuterLinks::kRefuse) {
   state_.query = std::move(query);
   state_.folder = library_.string();
   open();
@@ -53,7 +55,7 @@ void LibraryDesk::open() {
   neighbours_.reset();
   neighbour_trouble_.clear();
   drawings_.clear();
-  motions_ = ClipMotions(library_);
+  motions_ = ClipMotions(library_, OuterLinks::kRefuse);
   ++state_.revision;
   state_.clips = 0;
   state_.trouble.clear();

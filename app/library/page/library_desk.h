@@ -11,8 +11,8 @@
 
 #include "library/quality/quality_limits.h"
 
+#include "app/library/find/clip_motions.h"
 #include "app/library/page/clip_listing.h"
-#include "app/library/page/clip_motions.h"
 #include "app/library/page/clip_neighbours.h"
 #include "app/library/page/library_messages.h"
 #include "app/view/view_page.h"
