@@ -157,6 +157,10 @@ Result<ExportReport> export_library(const ExportOptions& options,
     return ok.error();
   }
   if (const Status ok = write_manifest(folder->partial()); !ok) return ok.error();
+  // The user may have added files meanwhile, which a replacement would remove.
+  if (const Status ok = check_export_folder(options.out, options.replaces); !ok) {
+    return ok.error();
+  }
   if (const Status ok = folder->commit(); !ok) return ok.error();
   return report;
 }
