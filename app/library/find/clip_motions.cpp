@@ -11,20 +11,12 @@
 #include "library/clips/normal_form.h"
 
 #include "app/shell/inside_folder.h"
+#include "core/base/hex_digits.h"
 #include "core/base/in_quotes.h"
 #include "recordings/library/clip_record_file.h"
 #include "recordings/library/motion_object.h"
 
 namespace marey::app {
-namespace {
-
-bool is_object_key(const std::string& key) {
-  return key.size() == 64 &&
-         key.find_first_not_of("0123456789abcdef") == std::string::npos;
-}
-
-}  // namespace
-
 std::string ClipMotions::next_step() const {
   return "delete the file if it exists, then build the library again: marey library "
          "build " +
@@ -38,7 +30,7 @@ Result<std::shared_ptr<const LibraryMotion>> ClipMotions::object(const std::stri
     return kept_.front().object;
   }
   // The index is a file that anybody can make: it must not name other files.
-  if (!is_object_key(key)) {
+  if (!is_hex(key, 64)) {
     return bad_input((library_ / "library.sqlite").string(),
                      in_quotes(key) + " in it is not the name of a motion object",
                      next_step());
