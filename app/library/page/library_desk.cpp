@@ -90,7 +90,7 @@ void LibraryDesk::open() {
     }
   }
   // In the place of a scene, so that a new page gets it first.
-  server_.publish_text(live::PageMessage::kScene, library_json(state_));
+  server_.publish_text(live::PageMessage::kScene, library_page_json(state_));
 }
 
 void LibraryDesk::look() {
@@ -229,7 +229,7 @@ LibraryDesk::Answer LibraryDesk::show(const LibraryAsker& asker,
   } else {
     shown.trouble = motion.error().message();
   }
-  return clip_json(asker, shown, *listing_, limits_);
+  return shown_clip_json(asker, shown, *listing_, limits_);
 }
 
 LibraryDesk::Answer LibraryDesk::store(const LibraryAsker& asker,
