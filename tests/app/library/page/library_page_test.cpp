@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/library/page/library_desk.h"
+#include "app/library/page/library_page_server.h"
 #include "app/library/page/library_view.h"
 #include "app/view/page_server.h"
 #include "recordings/base/atomic_file.h"
@@ -50,7 +50,7 @@ class LibraryPage : public ::testing::Test {
     auto started = start_page(options);
     ASSERT_TRUE(started) << started.error().message();
     page = std::make_unique<PageServer>(*std::move(started));
-    desk = std::make_unique<LibraryDesk>(place, "", page->server);
+    library_server = std::make_unique<LibraryPageServer>(place, "", page->server);
     socket = std::make_unique<WebSocketClient>(page->server.port());
     ASSERT_EQ(testing::status(socket->upgrade()), 101);
     library = receive();
@@ -68,7 +68,7 @@ class LibraryPage : public ::testing::Test {
     EXPECT_TRUE(page->server.wait_for_text(5000ms));
     std::vector<live::ReceivedText> texts;
     page->server.take_texts(texts);
-    for (const auto& text : texts) desk->answer(text);
+    for (const auto& text : texts) library_server->answer(text);
     return receive();
   }
   Json list(const std::string& query = "", const Json& quality = nullptr) {
@@ -86,7 +86,7 @@ class LibraryPage : public ::testing::Test {
 
   testing::ScratchFolder folder;
   std::unique_ptr<PageServer> page;
-  std::unique_ptr<LibraryDesk> desk;
+  std::unique_ptr<LibraryPageServer> library_server;
   std::unique_ptr<WebSocketClient> socket;
   Json library;
 };
@@ -277,7 +277,7 @@ TEST_F(LibraryPage, NoticesThatTheLibraryWasBuiltAgain) {
   const Json before = list();
   std::filesystem::remove(folder / "library.sqlite");
   testing::write_page_library(folder.path(), testing::sample_page_clips(3));
-  desk->look();
+  library_server->look();
   const Json now = receive();
   EXPECT_EQ(now["type"], "library");
   EXPECT_EQ(now["clips"], 3);

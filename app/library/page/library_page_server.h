@@ -22,13 +22,15 @@
 namespace marey::app {
 
 /// Answers the messages of the pages of one library. Reads only library.toml,
-/// library.sqlite, the search files, and objects that the index names. Writes only the
-/// tables of app/library/page/page_corrections.h. One thread.
-class LibraryDesk {
+/// library.sqlite, the search files, failed/, and objects that the index names. Writes
+/// only the tables of app/library/page/page_corrections.h. One thread.
+class LibraryPageServer {
  public:
   /// Reads the index, and publishes the state of the library. A library without an index,
-  /// or with a damaged one, is served with the reason. `server` must outlive the desk.
-  LibraryDesk(std::filesystem::path library, std::string query, live::WebServer& server);
+  /// or with a damaged one, is served with the reason. `server` must outlive this object.
+  LibraryPageServer(std::filesystem::path library,
+                    std::string query,
+                    live::WebServer& server);
 
   /// Carries out one message. The answer goes to its page.
   void answer(const live::ReceivedText& text);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/library/page/library_desk.h"
+#include "app/library/page/library_page_server.h"
 
 #include <algorithm>
 #include <system_error>
@@ -29,7 +29,9 @@ double row_time_s(const ClipRecord& clip, int row) {
 
 }  // namespace
 
-LibraryDesk::LibraryDesk(fs::path library, std::string query, live::WebServer& server)
+LibraryPageServer::LibraryPageServer(fs::path library,
+                                     std::string query,
+                                     live::WebServer& server)
     : library_(std::move(library)),
       server_(server),
       motions_(library_, OuterLinks::kRefuse) {
@@ -38,7 +40,7 @@ LibraryDesk::LibraryDesk(fs::path library, std::string query, live::WebServer& s
   open();
 }
 
-LibraryDesk::Stamp LibraryDesk::stamp() const {
+LibraryPageServer::Stamp LibraryPageServer::stamp() const {
   Stamp out;
   std::error_code ignored;  // A missing file has the zero stamp.
   const fs::path index = library_ / "library.sqlite";
@@ -49,7 +51,7 @@ LibraryDesk::Stamp LibraryDesk::stamp() const {
   return out;
 }
 
-void LibraryDesk::open() {
+void LibraryPageServer::open() {
   stamp_ = stamp();
   listing_.reset();
   neighbours_.reset();
@@ -93,11 +95,12 @@ void LibraryDesk::open() {
   server_.publish_text(live::PageMessage::kScene, library_page_json(state_));
 }
 
-void LibraryDesk::look() {
+void LibraryPageServer::look() {
   if (stamp() != stamp_) open();
 }
 
-Result<std::vector<ClipRecord>> LibraryDesk::records(std::vector<int> numbers) const {
+Result<std::vector<ClipRecord>> LibraryPageServer::records(
+    std::vector<int> numbers) const {
   auto out = recordings::read_library_records(library_ / "library.sqlite", numbers);
   if (!out) return out;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -108,8 +111,8 @@ Result<std::vector<ClipRecord>> LibraryDesk::records(std::vector<int> numbers) c
   return out;
 }
 
-LibraryDesk::Answer LibraryDesk::list(const LibraryAsker& asker,
-                                      const live::LibraryListRequest& request) {
+LibraryPageServer::Answer LibraryPageServer::list(
+    const LibraryAsker& asker, const live::LibraryListRequest& request) {
   const auto found = listing_->find(request);
   if (!found) return found.error();
   const std::vector<int>& numbers = (*found)->numbers;
@@ -124,7 +127,7 @@ LibraryDesk::Answer LibraryDesk::list(const LibraryAsker& asker,
 }
 
 /// Draws clips that have no drawing yet. A clip without a motion gets an empty one.
-void LibraryDesk::add_drawings(const std::vector<int>& numbers) {
+void LibraryPageServer::add_drawings(const std::vector<int>& numbers) {
   if (drawings_.size() + numbers.size() > kMaxDrawings) drawings_.clear();
   std::vector<int> missing;
   for (const int number : numbers) {
@@ -141,8 +144,8 @@ void LibraryDesk::add_drawings(const std::vector<int>& numbers) {
   }
 }
 
-LibraryDesk::Answer LibraryDesk::draw(const LibraryAsker& asker,
-                                      const live::LibraryPosesRequest& request) {
+LibraryPageServer::Answer LibraryPageServer::draw(
+    const LibraryAsker& asker, const live::LibraryPosesRequest& request) {
   for (const int clip : request.clips) {
     if (clip >= listing_->size()) {
       return bad_input("clips", "there is no such clip", "load the list again");
@@ -155,7 +158,7 @@ LibraryDesk::Answer LibraryDesk::draw(const LibraryAsker& asker,
 }
 
 /// Serves the media of a scene, and removes those of the oldest one.
-void LibraryDesk::serve(PageOfRecording page) {
+void LibraryPageServer::serve(PageOfRecording page) {
   std::vector<std::string>& paths = served_.emplace_back();
   for (live::WebContent& content : page.media) {
     paths.push_back(content.path);
@@ -168,9 +171,9 @@ void LibraryDesk::serve(PageOfRecording page) {
 }
 
 /// Makes the scene of a clip and its neighbours.
-void LibraryDesk::add_neighbours(const live::LibraryClipRequest& request,
-                                 const LibraryMotion& motion,
-                                 ShownClip& shown) {
+void LibraryPageServer::add_neighbours(const live::LibraryClipRequest& request,
+                                       const LibraryMotion& motion,
+                                       ShownClip& shown) {
   std::vector<ComparedMotion> others;
   FoundNeighbours found;
   if (neighbours_) {
@@ -209,8 +212,8 @@ void LibraryDesk::add_neighbours(const live::LibraryClipRequest& request,
   serve(std::move(scene->page));
 }
 
-LibraryDesk::Answer LibraryDesk::show(const LibraryAsker& asker,
-                                      const live::LibraryClipRequest& request) {
+LibraryPageServer::Answer LibraryPageServer::show(
+    const LibraryAsker& asker, const live::LibraryClipRequest& request) {
   if (request.clip >= listing_->size()) {
     return bad_input("clip", "there is no such clip", "load the list again");
   }
@@ -232,8 +235,8 @@ LibraryDesk::Answer LibraryDesk::show(const LibraryAsker& asker,
   return shown_clip_json(asker, shown, *listing_, limits_);
 }
 
-LibraryDesk::Answer LibraryDesk::store(const LibraryAsker& asker,
-                                       const live::LibraryVerdictRequest& request) {
+LibraryPageServer::Answer LibraryPageServer::store(
+    const LibraryAsker& asker, const live::LibraryVerdictRequest& request) {
   if (!listing_->find(request.clip_id)) {
     return bad_input(request.clip_id, "there is no such clip", "load the list again");
   }
@@ -241,8 +244,8 @@ LibraryDesk::Answer LibraryDesk::store(const LibraryAsker& asker,
   return stored_json(asker, kVerdictTable);
 }
 
-LibraryDesk::Answer LibraryDesk::store(const LibraryAsker& asker,
-                                       const live::LibraryLabelRequest& request) {
+LibraryPageServer::Answer LibraryPageServer::store(
+    const LibraryAsker& asker, const live::LibraryLabelRequest& request) {
   if (!listing_->find(request.clip_id)) {
     return bad_input(request.clip_id, "there is no such clip", "load the list again");
   }
@@ -251,8 +254,8 @@ LibraryDesk::Answer LibraryDesk::store(const LibraryAsker& asker,
 }
 
 /// Returns the answer; empty: none.
-LibraryDesk::Answer LibraryDesk::carry_out(const LibraryAsker& asker,
-                                           const live::LibraryPageRequest& request) {
+LibraryPageServer::Answer LibraryPageServer::carry_out(
+    const LibraryAsker& asker, const live::LibraryPageRequest& request) {
   return std::visit(
       [&](const auto& body) -> Answer {
         using Body = std::decay_t<decltype(body)>;
@@ -271,7 +274,7 @@ LibraryDesk::Answer LibraryDesk::carry_out(const LibraryAsker& asker,
       request.body);
 }
 
-void LibraryDesk::answer(const live::ReceivedText& text) {
+void LibraryPageServer::answer(const live::ReceivedText& text) {
   LibraryAsker asker;
   asker.revision = state_.revision;
   const auto request = live::read_library_request(text.text);
