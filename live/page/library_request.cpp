@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/hex_digits.h"
 #include "live/page/request_members.h"
 
 namespace marey::live {
@@ -68,9 +69,7 @@ std::string stored_text(RequestMembers& members,
 /// Reads an id of a clip: 16 hexadecimal digits.
 std::string clip_id_of_request(RequestMembers& members) {
   std::string id = members.text("clip_id", kMaxLibraryIdBytes);
-  const bool is_id =
-      id.size() == 16 && id.find_first_not_of("0123456789abcdef") == std::string::npos;
-  if (!is_id) members.fail("clip_id", "the id of a clip");
+  if (!is_hex(id, 16)) members.fail("clip_id", "the id of a clip");
   return id;
 }
 

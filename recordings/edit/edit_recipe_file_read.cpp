@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/hex_digits.h"
 #include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
 #include "recordings/base/atomic_file.h"
@@ -33,8 +34,7 @@ std::string read_sha256(TomlReader& in) {
   for (char& c : sum) {
     if (c >= 'A' && c <= 'F') c = static_cast<char>(c - 'A' + 'a');
   }
-  const bool is_hex = sum.find_first_not_of("0123456789abcdef") == std::string::npos;
-  if (sum.size() != kDigits || !is_hex) {
+  if (!is_hex(sum, kDigits)) {
     in.fail("sha256",
             "\"sha256\" is not a SHA-256 sum of 64 digits",
             "remove the key; marey edit writes it again");

@@ -13,6 +13,8 @@
 
 namespace marey::recordings {
 
+/// Name of the table in labels/ that the page of a library writes.
+inline constexpr std::string_view kPageLabelFile = "page.csv";
 /// Largest time of a label: a day. [s]
 inline constexpr double kMaxLabel_s = 86400.0;
 

@@ -111,10 +111,23 @@ void read_limits(TomlReader in, LibrarySettings& out) {
   std::ranges::sort(out.limits, {}, &QualityLimit::figure);
 }
 
+/// Checks the name of a split: it becomes a part of names of files.
+bool is_split_name(std::string_view name) {
+  constexpr std::size_t kMaxLetters = 32;
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789_-";
+  return !name.empty() && name.size() <= kMaxLetters &&
+         name.find_first_not_of(kLetters) == std::string_view::npos;
+}
+
 void read_splits(TomlReader in, LibrarySettings& out) {
   out.splits.clear();
   double sum = 0.0;
   for (const std::string& name : in.keys()) {
+    if (!is_split_name(name)) {
+      in.fail(name,
+              in_quotes(name) + " cannot be the name of a split",
+              "write 1 to 32 of the characters a to z, 0 to 9, _ and -");
+    }
     const double share = in.number(name, {0.0, 1.0, "of all clips"});
     sum += share;
     out.splits.emplace_back(name, share);

@@ -9,9 +9,11 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "core/base/assert.h"
+#include "core/base/hex_digits.h"
 #include "recordings/base/sqlite.h"
 #include "recordings/library/enum_named.h"
 #include "recordings/library/open_index.h"
@@ -20,6 +22,13 @@ namespace marey::recordings {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Checks an id. An export's index also has the ids of mirrored copies.
+bool is_clip_id(std::string_view id) {
+  constexpr std::string_view kMirror = "_mirror";
+  if (id.ends_with(kMirror)) id.remove_suffix(kMirror.size());
+  return is_hex(id, 16);
+}
 
 /// An open index, read clip by clip. Stores the first defect; results after it are
 /// meaningless.
@@ -55,7 +64,7 @@ class ClipReader {
     ClipRecord out;
     std::int64_t source = -1;
     one_row(clip_, number, [&] {
-      out.clip_id = clip_.text(0);
+      out.clip_id = id(clip_, 0);
       source = clip_.integer(1);
       out.name = clip_.text(2);
       out.body = clip_.text(3);
@@ -68,10 +77,11 @@ class ClipReader {
       out.rate_hz = clip_.number(6);
       out.rate_by = word<RateBasis>(clip_, 7);
       out.object_key = clip_.text(8);
+      if (!is_hex(out.object_key, 64)) fail("it is damaged: a key of an object is wrong");
       out.quality = word<Verdict>(clip_, 9);
       out.split = clip_.text(10);
-      out.duplicate_of = clip_.text(11);
-      out.mirror_of = clip_.text(12);
+      if (!clip_.text(11).empty()) out.duplicate_of = id(clip_, 11);
+      if (!clip_.text(12).empty()) out.mirror_of = id(clip_, 12);
     });
     out.provenance = provenance(source);
     read_lists(number, out);
@@ -83,7 +93,7 @@ class ClipReader {
     ClipSummary out;
     out.number = number;
     one_row(summary_, number, [&] {
-      out.clip_id = summary_.text(0);
+      out.clip_id = id(summary_, 0);
       out.name = summary_.text(1);
       out.duration_s = summary_.number(2);
       out.rate_hz = summary_.number(3);
@@ -179,6 +189,13 @@ class ClipReader {
     if (std::in_range<int>(value)) return static_cast<int>(value);
     fail("it is damaged: a number of a frame is wrong");
     return 0;
+  }
+
+  /// Ids become names of files.
+  std::string id(const Statement& row, int column) {
+    std::string out = row.text(column);
+    if (!is_clip_id(out)) fail("it is damaged: an id of a clip is wrong");
+    return out;
   }
 
   template <class Enum>

@@ -19,6 +19,8 @@ namespace marey::recordings {
 // does not disturb the reader, and nothing is written next to it. Errors (kBadInput) of
 // all functions: no index at `index`; a damaged one, or one of another version of marey;
 // a number that it does not have. The next step names the command that makes it again.
+// Ids and keys of clips are checked: they are hexadecimal digits, so that they are safe
+// as names of files. The id of a mirrored copy in an export's index ends with "_mirror".
 
 /// Returns the number of clips. Cost: that of opening the file, about 1 ms.
 [[nodiscard]] Result<int> count_library_clips(const std::filesystem::path& index);

@@ -79,7 +79,7 @@ CheckJson clip_problem_json(const ClipRecord& clip, const ClipProblem& problem) 
           {"end_s", rounded(range.end_s, 4)}};
 }
 
-CheckJson clip_json(const ClipRecord& clip) {
+CheckJson checked_clip_json(const ClipRecord& clip) {
   CheckJson out = {{"clip", clip.clip_id},
                    {"name", clip.name},
                    {"source", clip.provenance.path},
@@ -134,7 +134,7 @@ nlohmann::ordered_json check_json(const LibraryCheck& check) {
   CheckJson out = check_summary_json(check);
   CheckJson& clips = out["clips"] = CheckJson::array();
   for (const std::size_t i : check.worst_first)
-    clips.push_back(clip_json(check.clips[i]));
+    clips.push_back(checked_clip_json(check.clips[i]));
   return out;
 }
 

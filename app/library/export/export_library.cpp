@@ -10,6 +10,7 @@
 #include "app/library/export/clip_tables.h"
 #include "app/library/export/export_folder.h"
 #include "app/library/export/export_sheets.h"
+#include "app/library/find/clip_motions.h"
 #include "core/base/assert.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/base/atomic_folder.h"
@@ -42,6 +43,7 @@ class ClipExport {
  public:
   ClipExport(const ExportOptions& options, const ExportBody& body, const fs::path& folder)
       : options_(options),
+        motions_(options.library, OuterLinks::kFollow),
         converter_(options, body),
         sink_(make_clip_sink(options, body, folder)) {}
 
@@ -55,7 +57,7 @@ class ClipExport {
       }
       return Done{};
     }
-    auto motion = converter_.read(record);
+    auto motion = motions_.read(record);
     if (!motion) return motion.error();
     std::vector<UnknownSide> unknown;
     auto clips = converter_.convert(record, *std::move(motion), unknown);
@@ -91,6 +93,7 @@ class ClipExport {
   }
 
   const ExportOptions& options_;
+  ClipMotions motions_;
   ClipConverter converter_;
   std::unique_ptr<ClipSink> sink_;
 };
@@ -154,6 +157,10 @@ Result<ExportReport> export_library(const ExportOptions& options,
     return ok.error();
   }
   if (const Status ok = write_manifest(folder->partial()); !ok) return ok.error();
+  // The user may have added files meanwhile, which a replacement would remove.
+  if (const Status ok = check_export_folder(options.out, options.replaces); !ok) {
+    return ok.error();
+  }
   if (const Status ok = folder->commit(); !ok) return ok.error();
   return report;
 }

@@ -24,9 +24,9 @@ namespace marey::app {
 ///
 /// A clip whose body does not fit the skeleton or the layout is left out and reported.
 /// Errors: licences that do not permit the export, before anything is written; no clip is
-/// selected, or all are left out; a folder that check_export_folder() refuses; a missing
-/// or damaged object (kBadInput); the disk (kDevice). After an error there is no folder,
-/// or the earlier export.
+/// selected, or all are left out; a folder that check_export_folder() refuses, at the
+/// start or at the end; a missing or damaged object (kBadInput); the disk (kDevice).
+/// After an error there is no folder, or the earlier export.
 [[nodiscard]] Result<ExportReport> export_library(const ExportOptions& options,
                                                   std::vector<ClipRecord> records,
                                                   std::span<const int> selected,

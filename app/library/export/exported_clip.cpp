@@ -11,15 +11,12 @@
 #include "edit/ops/mirror.h"
 #include "edit/state/edit_state.h"
 #include "edit/state/mirror_names.h"
-#include "library/clips/normal_form.h"
 #include "library/export/named_skeleton.h"
 #include "library/export/start_at_origin.h"
 #include "library/labels/exchange_sides.h"
 
 #include "core/base/in_quotes.h"
 #include "core/resample.h"
-#include "recordings/library/clip_record_file.h"
-#include "recordings/library/motion_object.h"
 #include "retarget/body/body_map.h"
 #include "retarget/motion/retarget_motion.h"
 
@@ -186,35 +183,10 @@ ClipRecord mirrored_record(const ClipRecord& record, std::vector<UnknownSide>& u
   return out;
 }
 
-Result<LibraryMotion> ClipConverter::read(const ClipRecord& record) {
-  if (record.object_key != object_key_) {
-    const auto place =
-        options_.library / recordings::object_path(record.object_key, ".npz");
-    auto object = recordings::read_motion_object(place);
-    if (!object) {
-      Error error = object.error();
-      error.cause = "the motion of clip " + record.clip_id + ": " + error.cause;
-      error.next = "make it again with marey library build " + options_.library.string();
-      return error;
-    }
-    object_ = *std::move(object);
-    object_key_ = record.object_key;
-  }
-  const int first = record.first_frame - object_.motion.first_frame;
-  const int last = record.last_frame - object_.motion.first_frame;
-  const int count = static_cast<int>(object_.motion.poses.size());
-  if (first < 0 || last < first || last >= count) {
-    return bad_input(
-        options_.library.string() + ": clip " + record.clip_id,
-        "its motion does not have the frames " + std::to_string(record.first_frame) +
-            " to " + std::to_string(record.last_frame),
-        "make it again with marey library build " + options_.library.string());
-  }
-  return library::part_of(object_, first, last);
-}
-
 Result<std::vector<ExportedClip>> ClipConverter::convert(
-    const ClipRecord& record, LibraryMotion motion, std::vector<UnknownSide>& unknown) {
+    const ClipRecord& record,
+    LibraryMotion motion,
+    std::vector<UnknownSide>& unknown) const {
   if (body_.skeleton) {
     auto put = on_body(std::move(motion), body_);
     if (!put) return put.error();

@@ -51,29 +51,24 @@ struct UnknownSide {
 [[nodiscard]] ClipRecord mirrored_record(const ClipRecord& record,
                                          std::vector<UnknownSide>& unknown);
 
-/// Reads clips one by one and converts them. Keeps the last object that was read, since
-/// the clips of a source follow each other.
+/// Converts clips one by one.
 class ClipConverter {
  public:
   /// Borrows all; they must outlive the converter.
   ClipConverter(const ExportOptions& options, const ExportBody& body)
       : options_(options), body_(body) {}
 
-  /// Reads the motion of a clip. Errors: its object is missing or damaged, or does not
-  /// have the clip's frames (kBadInput).
-  [[nodiscard]] Result<LibraryMotion> read(const ClipRecord& record);
-
   /// Converts a clip: retargets, resamples and places it. The result has the clip, and
   /// its mirrored copy if that is wanted. Errors (kBadInput): the body cannot be
   /// retargeted; no instant of the new rate lies in the clip.
   [[nodiscard]] Result<std::vector<ExportedClip>> convert(
-      const ClipRecord& record, LibraryMotion motion, std::vector<UnknownSide>& unknown);
+      const ClipRecord& record,
+      LibraryMotion motion,
+      std::vector<UnknownSide>& unknown) const;
 
  private:
   const ExportOptions& options_;
   const ExportBody& body_;
-  std::string object_key_;
-  LibraryMotion object_;
 };
 
 }  // namespace marey::app

@@ -34,7 +34,7 @@ using recordings::ClipSet;
 using recordings::ClipSummary;
 using recordings::ClipText;
 
-using SecondsRange = std::pair<double, double>;
+using QueriedSeconds = std::pair<double, double>;
 
 std::optional<double> whole_number(std::string_view text) {
   double value = 0.0;
@@ -85,7 +85,7 @@ Error no_clip(const fs::path& index, const std::string& word) {
 }
 
 /// Keeps the rows from second `a` to `b`. `start_s` is the time of the first one.
-Status cut_rows(const SecondsRange& range,
+Status cut_rows(const QueriedSeconds& range,
                 double start_s,
                 double duration_s,
                 const std::string& name,
@@ -145,7 +145,7 @@ Result<FileFeatures> read_file_features(const fs::path& file) {
 
 }  // namespace
 
-std::pair<std::string, std::optional<SecondsRange>> divide_range(
+std::pair<std::string, std::optional<QueriedSeconds>> divide_range(
     const std::string& text) {
   const std::size_t at = text.rfind('@');
   if (at == std::string::npos || at == 0) return {text, std::nullopt};
@@ -155,7 +155,7 @@ std::pair<std::string, std::optional<SecondsRange>> divide_range(
   const auto a = whole_number(range.substr(0, dash));
   const auto b = whole_number(range.substr(dash + 1));
   if (!a || !b) return {text, std::nullopt};
-  return {text.substr(0, at), SecondsRange{*a, *b}};
+  return {text.substr(0, at), QueriedSeconds{*a, *b}};
 }
 
 Result<int> find_clip(const fs::path& library, const std::string& word) {

@@ -13,6 +13,7 @@
 #include "core/base/in_quotes.h"
 #include "core/base/printable.h"
 #include "core/finding.h"
+#include "recordings/library/label_file.h"
 #include "recordings/library/library_records.h"
 #include "recordings/library/verdict_file.h"
 
@@ -26,13 +27,14 @@ constexpr std::size_t kMaxNamedTargets = 5;
 
 /// Checks that a name can be the name of a table of labels.
 Status check_table_name(const std::string& name, const LibraryAnnotateArguments& args) {
-  const bool is_reserved = name == "marey" || name + ".csv" == recordings::kVerdictFile;
+  const bool is_reserved = name == "marey" || name + ".csv" == recordings::kVerdictFile ||
+                           name + ".csv" == recordings::kPageLabelFile;
   const bool is_usable = !name.empty() && name.size() <= 100 && !name.starts_with('.') &&
                          name.find('/') == std::string::npos && printable(name) == name;
   if (is_usable && !is_reserved) return Done{};
   return bad_usage(
       args.by.empty() ? "--import" : "--by",
-      in_quotes(name) + (is_reserved ? " is the name of another table in labels/"
+      in_quotes(name) + (is_reserved ? " is reserved: marey writes the table of that name"
                                      : " cannot be the name of a table in labels/"),
       "give --by with the name of the person or of the table");
 }

@@ -35,8 +35,9 @@ std::int16_t in_mm(double metres) {
   return static_cast<std::int16_t>(std::clamp(std::round(1000.0 * metres), -kMax, kMax));
 }
 
-}  // namespace
-
+/// Returns the direction that a posture in normal form faces: the angle of the hips'
+/// forward axis about Y from +Z. If that axis is vertical within 25 degrees, as when
+/// lying, their up axis is used. [rad]
 double facing_rad(const Skeleton& skeleton, const Pose& pose) {
   constexpr double kMinLevel = 0.42;  // Sine of 25 degrees.
   const auto world_from_joint = world_from_joints(skeleton, pose);
@@ -46,6 +47,8 @@ double facing_rad(const Skeleton& skeleton, const Pose& pose) {
   if (std::hypot(ahead.x, ahead.z) < kMinLevel) ahead = turn * glm::dvec3(0.0, 1.0, 0.0);
   return std::atan2(ahead.x, ahead.z);
 }
+
+}  // namespace
 
 ClipDrawing draw_clip(const Motion& motion) {
   const DrawnJoints joints = joints_of_bones(motion.skeleton);

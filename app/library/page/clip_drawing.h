@@ -33,9 +33,4 @@ struct ClipDrawing {
 /// Precondition: the motion has poses.
 [[nodiscard]] ClipDrawing draw_clip(const Motion& motion);
 
-/// Returns the direction that a posture in normal form faces: the angle of the hips'
-/// forward axis about Y from +Z. If that axis is vertical within 25 degrees, as when
-/// lying, their up axis is used. [rad]
-[[nodiscard]] double facing_rad(const Skeleton& skeleton, const Pose& pose);
-
 }  // namespace marey::app

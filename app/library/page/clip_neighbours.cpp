@@ -3,51 +3,36 @@
 #include "app/library/page/clip_neighbours.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "library/features/body_features.h"
-#include "library/features/feature_basis.h"
 #include "library/search/find_similar.h"
 
 namespace marey::app {
 namespace {
 
 namespace fs = std::filesystem;
-using recordings::RowsFile;
 
 /// Clips whose exact distance is computed. The page shows few neighbours, so fewer
 /// suffice than for a search of ten (docs/accuracy/library.md).
 constexpr int kCandidates = 400;
 
-library::ClipRows view_of(const RowsFile& file) {
-  const recordings::RowsView rows = file.rows();
-  return {rows.values, rows.columns, rows.begins};
-}
-
 }  // namespace
 
 Result<ClipNeighbours> ClipNeighbours::open(const fs::path& library, int clip_count) {
-  const fs::path folder = library / "search";
-  auto features = RowsFile::open(folder / "features.f32", library::kFeatureStride);
-  if (!features) return features.error();
-  auto windows = RowsFile::open(folder / "windows.f32", library::kWindowFloats);
-  if (!windows) return windows.error();
-  auto wholes = RowsFile::open(folder / "wholes.f32", library::kWholeFloats);
-  if (!wholes) return wholes.error();
-  for (const RowsFile* file : {&*features, &*windows, &*wholes}) {
-    if (view_of(*file).clip_count() != clip_count) {
-      return bad_input(folder.string(),
-                       "the search files belong to another build than library.sqlite",
-                       "build the library again: marey library build");
-    }
+  auto search = open_search(library);
+  if (!search) return search.error();
+  if (search->rows().features.clip_count() != clip_count) {
+    return bad_input(library.string(),
+                     "the library was built again meanwhile",
+                     "look at the page again in a moment");
   }
-  return ClipNeighbours(*std::move(features), *std::move(windows), *std::move(wholes));
+  return ClipNeighbours(*std::move(search));
 }
 
 FoundNeighbours ClipNeighbours::find(int clip, bool is_mirrored, int count) const {
-  const library::SearchRows rows{view_of(features_), view_of(windows_), view_of(wholes_)};
+  const library::SearchRows rows = search_.rows();
   FoundNeighbours out;
   std::span<const float> query = rows.features.rows(clip);
   if (query.empty()) return out;

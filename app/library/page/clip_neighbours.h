@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <vector>
 
+#include "app/library/find/open_search.h"
 #include "core/base/result.h"
 #include "core/library/clip_record.h"
-#include "recordings/library/rows_file.h"
 
 namespace marey::app {
 
@@ -29,8 +29,8 @@ struct FoundNeighbours {
 /// Finds similar clips in the search files of a library, which stay mapped.
 class ClipNeighbours {
  public:
-  /// Errors (kBadInput): those of recordings::RowsFile::open(); the files have another
-  /// number of clips than the index, so that they belong to another build.
+  /// Errors (kBadInput): those of open_search(); the index has another number of clips
+  /// now than `clip_count`.
   [[nodiscard]] static Result<ClipNeighbours> open(const std::filesystem::path& library,
                                                    int clip_count);
 
@@ -42,16 +42,9 @@ class ClipNeighbours {
   static constexpr int kMaxQueryRows = 81;
 
  private:
-  ClipNeighbours(recordings::RowsFile features,
-                 recordings::RowsFile windows,
-                 recordings::RowsFile wholes)
-      : features_(std::move(features)),
-        windows_(std::move(windows)),
-        wholes_(std::move(wholes)) {}
+  explicit ClipNeighbours(OpenedSearch search) : search_(std::move(search)) {}
 
-  recordings::RowsFile features_;
-  recordings::RowsFile windows_;
-  recordings::RowsFile wholes_;
+  OpenedSearch search_;
 };
 
 /// Returns the time of the first row of a clip since its first frame: rows are at

@@ -9,10 +9,10 @@
 #include <string>
 #include <utility>
 
-#include <glm/gtc/quaternion.hpp>
+#include "library/export/start_at_origin.h"
 
-#include "app/library/page/clip_drawing.h"
 #include "core/resample.h"
+#include "retarget/body/body_map.h"
 
 namespace marey::app {
 namespace {
@@ -91,19 +91,6 @@ void add_ends(Motion& motion) {
   }
 }
 
-/// Turns and moves a motion on the floor so that it starts at the origin and faces +Z.
-void start_at_front(Motion& motion) {
-  const Pose first = motion.poses.front();
-  const glm::dquat turn =
-      glm::angleAxis(-facing_rad(motion.skeleton, first), glm::dvec3(0.0, 1.0, 0.0));
-  const glm::dvec3 start(first.root_in_world.x, 0.0, first.root_in_world.z);
-  for (Pose& pose : motion.poses) {
-    pose.root_in_world = turn * (pose.root_in_world - start);
-    if (pose.parent_from_joint.empty()) continue;
-    pose.parent_from_joint.front() = turn * pose.parent_from_joint.front();
-  }
-}
-
 /// Keeps every `step`th pose.
 void thin_out(Motion& motion, int step) {
   if (step == 1) return;
@@ -127,7 +114,9 @@ Motion from_its_part(const ComparedMotion& other, double speed, FrameRate rate) 
 }
 
 ViewedFigure figure_of(std::string name, live::PageSkeletonKind kind, Motion motion) {
-  start_at_front(motion);
+  // A body that cannot be mapped, which no build accepts, stays at its place.
+  const auto map = retarget::map_body(motion.skeleton);
+  if (map) library::start_at_origin(motion, *map);
   add_ends(motion);
   return {.name = std::move(name), .kind = kind, .motion = std::move(motion)};
 }

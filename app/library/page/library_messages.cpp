@@ -120,7 +120,7 @@ void add_places(const ClipRecord& record,
 
 }  // namespace
 
-std::string library_json(const LibraryState& state) {
+std::string library_page_json(const LibraryState& state) {
   return one_line({{"type", "library"},
                    {"version", 1},
                    {"revision", state.revision},
@@ -178,10 +178,10 @@ std::string drawings_json(const LibraryAsker& asker,
   return out;
 }
 
-std::string clip_json(const LibraryAsker& asker,
-                      const ShownClip& clip,
-                      const ClipListing& listing,
-                      const library::QualityLimits& limits) {
+std::string shown_clip_json(const LibraryAsker& asker,
+                            const ShownClip& clip,
+                            const ClipListing& listing,
+                            const library::QualityLimits& limits) {
   const ClipRecord& record = clip.record;
   ClipJson out = answer_to(asker, "clip");
   out["row"] = row_json(listing[clip.number]);

@@ -58,7 +58,7 @@ struct ShownClip {
   std::string neighbour_trouble;
 };
 
-[[nodiscard]] std::string library_json(const LibraryState& state);
+[[nodiscard]] std::string library_page_json(const LibraryState& state);
 /// `rows`: numbers of the clips that the request asked for.
 [[nodiscard]] std::string clips_json(const LibraryAsker& asker,
                                      const ClipListing& listing,
@@ -72,10 +72,10 @@ struct ShownClip {
 /// `drawings`: texts of drawing_json().
 [[nodiscard]] std::string drawings_json(const LibraryAsker& asker,
                                         std::span<const std::string> drawings);
-[[nodiscard]] std::string clip_json(const LibraryAsker& asker,
-                                    const ShownClip& clip,
-                                    const ClipListing& listing,
-                                    const library::QualityLimits& limits);
+[[nodiscard]] std::string shown_clip_json(const LibraryAsker& asker,
+                                          const ShownClip& clip,
+                                          const ClipListing& listing,
+                                          const library::QualityLimits& limits);
 /// `file`: the table that a line was added to.
 [[nodiscard]] std::string stored_json(const LibraryAsker& asker, const std::string& file);
 /// The request belongs to an older index.

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <vector>
 
-#include "app/library/page/library_desk.h"
+#include "app/library/page/library_page_server.h"
 #include "app/shell/stop_signal.h"
 
 namespace marey::app {
@@ -33,7 +33,7 @@ std::optional<Error> refused_option(const ViewArguments& args) {
 /// Serves until Ctrl-C or the time limit.
 Status serve_library(const ViewArguments& args,
                      live::WebServer& server,
-                     LibraryDesk& desk) {
+                     LibraryPageServer& library_server) {
   constexpr std::chrono::milliseconds kLook{250};
   const auto end = LibraryClock::now() +
                    std::chrono::duration_cast<LibraryClock::duration>(
@@ -43,10 +43,10 @@ Status serve_library(const ViewArguments& args,
   std::vector<live::ReceivedText> texts;
   while (!stop_wanted() && (!args.seconds || LibraryClock::now() < end)) {
     const bool has_text = server.wait_for_text(kLook);
-    desk.look();
+    library_server.look();
     if (has_text) {
       server.take_texts(texts);
-      for (const live::ReceivedText& text : texts) desk.answer(text);
+      for (const live::ReceivedText& text : texts) library_server.answer(text);
     }
     if (!root) continue;
     if (Status ok = root->serve(server); !ok) return ok;
@@ -65,14 +65,14 @@ Exit run_library_view(const ViewArguments& args, Console& console) {
   if (const auto error = refused_option(args)) return console.fail(*error);
   auto page = start_page(args.page);
   if (!page) return console.fail(page.error());
-  LibraryDesk desk(args.choice.what, args.query, page->server);
-  const LibraryState& state = desk.state();
+  LibraryPageServer library_server(args.choice.what, args.query, page->server);
+  const LibraryState& state = library_server.state();
   if (!state.trouble.empty()) console.warn(state.trouble);
   console.say(std::to_string(state.clips) + " clips");
   catch_stop_signals();
   print_addresses(*page, args.page);
   if (!args.seconds) console.say("open the address in a browser; Ctrl-C ends it");
-  if (const Status ok = serve_library(args, page->server, desk); !ok) {
+  if (const Status ok = serve_library(args, page->server, library_server); !ok) {
     return console.fail(ok.error());
   }
   return Exit::kOk;

@@ -3,6 +3,7 @@
 #include "app/library/page/page_corrections.h"
 
 #include <cmath>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -17,6 +18,9 @@ namespace marey::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+static_assert(std::string_view(kVerdictTable).ends_with(recordings::kVerdictFile));
+static_assert(std::string_view(kLabelTable).ends_with(recordings::kPageLabelFile));
 
 /// Creates the folder of a table. Checks that the table is stored in the library itself.
 Status prepare_table(const fs::path& library, const fs::path& table) {
@@ -36,7 +40,8 @@ Status store_verdict(const fs::path& library,
                      const live::LibraryVerdictRequest& verdict) {
   const fs::path table = library / kVerdictTable;
   if (const Status ok = prepare_table(library, table); !ok) return ok;
-  const recordings::FolderLock lock(table.parent_path());
+  const auto lock = recordings::FolderLock::take(table.parent_path());
+  if (!lock) return lock.error();
   recordings::VerdictCorrection row;
   row.clip = verdict.clip_id;
   row.figure = verdict.figure;
@@ -55,7 +60,8 @@ Status store_label(const fs::path& library, const live::LibraryLabelRequest& lab
                      "\"marey\" is the name of labels that a build makes",
                      "write your own name");
   }
-  const recordings::FolderLock lock(table.parent_path());
+  const auto lock = recordings::FolderLock::take(table.parent_path());
+  if (!lock) return lock.error();
   std::vector<recordings::LabelRow> rows;
   std::error_code ignored;
   if (fs::exists(table, ignored)) {

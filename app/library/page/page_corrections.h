@@ -11,7 +11,8 @@ namespace marey::app {
 
 // Tables of a library that its page writes. `marey library build` applies them. A table
 // is read, extended and replaced as a whole while its folder is locked, so that no line
-// of another page or program is lost. A table with a mistake stays as it is.
+// of another page is lost. `marey library annotate` refuses their names. A table with a
+// mistake stays as it is. Errors of both functions: also FolderLock::take()'s.
 
 /// Paths relative to the library.
 inline constexpr const char* kVerdictTable = "labels/verdicts.csv";

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -25,7 +26,8 @@ TEST(FolderLock, KeepsTheLinesOfAllWriters) {
   for (int writer = 0; writer < kWriters; ++writer) {
     writers.emplace_back([&] {
       for (int i = 0; i < kLines; ++i) {
-        const FolderLock lock(folder.path());
+        const auto lock = FolderLock::take(folder.path());
+        if (!lock) return;
         auto text = read_file(file);
         if (text) (void)write_file(file, *text + "line\n");
       }
@@ -37,10 +39,22 @@ TEST(FolderLock, KeepsTheLinesOfAllWriters) {
   EXPECT_EQ(text->size(), std::string("line\n").size() * kWriters * kLines);
 }
 
-TEST(FolderLock, HasNoEffectWithoutAFolder) {
+TEST(FolderLock, NeedsAFolder) {
   const testing::ScratchFolder folder;
-  const FolderLock first(folder / "absent");
-  const FolderLock second(folder / "absent");
+  const auto lock = FolderLock::take(folder / "absent");
+  ASSERT_FALSE(lock);
+  EXPECT_EQ(lock.error().code, Errc::kDevice);
+  EXPECT_EQ(lock.error().where, (folder / "absent").string());
+}
+
+TEST(FolderLock, CanBeMovedAndTakenAgain) {
+  const testing::ScratchFolder folder;
+  {
+    auto lock = FolderLock::take(folder.path());
+    ASSERT_TRUE(lock);
+    const FolderLock moved = *std::move(lock);
+  }
+  EXPECT_TRUE(FolderLock::take(folder.path()));
 }
 
 }  // namespace

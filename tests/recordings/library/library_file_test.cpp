@@ -116,6 +116,9 @@ TEST(LibraryFile, ReportsAMistakeWithItsLineAndTheNextStep) {
       {"slide_cm_s = [3, 8]", "slide_cm_s = [8, 3]", {"slide_cm_s", "WARN, FAIL"}},
       {"slide_cm_s = [3, 8]", "slide_cm_s = [8]", {"slide_cm_s"}},
       {"train = 0.5", "train = 0.6", {"add up"}},
+      {"train = 0.5", "\"../x\" = 0.5", {"library.toml:36", "name of a split", "a to z"}},
+      {"train = 0.5", "\"\" = 0.5", {"name of a split"}},
+      {"train = 0.5", "Train = 0.5", {"name of a split"}},
       {"rate_hz = 30\nclean", "rate_hz = 0\nclean", {"rate_hz", "Hz"}},
       {"name = \"walks\"\n", "", {"name"}},
   };

@@ -56,6 +56,7 @@ TEST(LibraryRecords, EqualTheWrittenRecords) {
 TEST(LibraryRecords, KeepEveryTextAndOrder) {
   ClipRecord odd;
   odd.clip_id = "0123456789abcdef";
+  odd.object_key = std::string(64, 'b');
   odd.name = std::string("a'b\"c\0d%_\n\xff", 11);
   odd.provenance.path = "walk é.bvh";
   odd.first_frame = -7;
@@ -66,7 +67,8 @@ TEST(LibraryRecords, KeepEveryTextAndOrder) {
                  {"a", -0.0, Verdict::kPass, "", std::nullopt}};
   odd.labels = {{3.0, 1.0, "", "", 0.0}, {3.0, 1.0, "", "", 0.0}};
   ClipRecord copy = odd;
-  copy.clip_id = "other";
+  copy.clip_id = "fedcba9876543210_mirror";
+  copy.mirror_of = odd.clip_id;
   copy.provenance.path = "a copy of the same bytes.bvh";
   const ScratchFolder folder;
   ASSERT_TRUE(write_library_index(folder / "library.sqlite", std::vector{odd, copy}));
@@ -174,6 +176,13 @@ TEST(LibraryRecords, RefuseTablesThatDoNotFit) {
                              "UPDATE clip SET number = 1 << 40 WHERE number = 3",
                              "UPDATE clip SET number = -1 WHERE number = 3",
                              "UPDATE figure SET a = 1 << 40",
+                             "UPDATE clip SET id = '../../../../etc/x' WHERE number = 3",
+                             "UPDATE clip SET id = '0123456789ABCDEF' WHERE number = 3",
+                             "UPDATE clip SET id = '' WHERE number = 3",
+                             "UPDATE clip SET key = '../x' WHERE number = 3",
+                             "UPDATE clip SET key = '' WHERE number = 3",
+                             "UPDATE clip SET duplicate_of = 'x' WHERE number = 3",
+                             "UPDATE clip SET mirror_of = '/' WHERE number = 3",
                              "DELETE FROM source",
                              "DROP TABLE event",
                              "DROP TABLE clip"}) {
@@ -181,6 +190,15 @@ TEST(LibraryRecords, RefuseTablesThatDoNotFit) {
     testing::run_sql(index, damage);
     EXPECT_NE(refusal_of_records(index).find("damaged"), std::string::npos) << damage;
   }
+}
+
+TEST(ClipSummaries, RefuseIdsThatAreNone) {
+  const ScratchFolder folder;
+  const fs::path index = folder / "library.sqlite";
+  ASSERT_TRUE(write_library_index(index, testing::simulated_records()));
+  testing::run_sql(index, "UPDATE clip SET id = '../x' WHERE number = 3");
+  EXPECT_TRUE(read_clip_summaries(index, 0, 3));
+  EXPECT_FALSE(read_clip_summaries(index, 0, 4));
 }
 
 /// Reads everything that the readers of an index read. Any result is right.

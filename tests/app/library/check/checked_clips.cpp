@@ -42,6 +42,7 @@ std::vector<ClipRecord> checked_clips(int count) {
     clip.name = "take_" + std::to_string(i);
     clip.rate_hz = i % 3 == 0 ? 120.0 : 30.0;
     clip.last_frame = 40 + static_cast<int>(400.0 * dice.next());
+    clip.object_key = std::string(64, 'a');
     clip.clip_id = recordings::clip_id_of(clip.name, "", 0, clip.last_frame);
     const bool is_bad = dice.next() < 0.1;
     const auto bad = static_cast<std::size_t>(4.0 * dice.next());

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -53,6 +54,22 @@ TEST(ExportFolder, IsRefusedWhereOthersHaveFiles) {
   ASSERT_TRUE(recordings::write_file(folder / "empty/mine.txt", "x"));
   EXPECT_EQ(cause_of(folder / "empty", true),
             "\"mine.txt\" in it is not a file of an export");
+}
+
+TEST(ExportFolder, KeepsFilesThatAreAddedDuringTheExport) {
+  ExportScene scene;
+  ExportOptions options = scene.options(ExportFormat::kNpz, "e");
+  ASSERT_TRUE(scene.run(options));
+  options.replaces = true;
+  const std::vector<int> selected{0};
+  const auto add_file = [&](int, int) {
+    EXPECT_TRUE(recordings::write_file(options.out / "mine.txt", "x"));
+  };
+  const auto report = export_library(options, scene.records(), selected, add_file);
+  ASSERT_FALSE(report);
+  EXPECT_EQ(report.error().cause, "\"mine.txt\" in it is not a file of an export");
+  EXPECT_TRUE(fs::exists(options.out / "mine.txt"));
+  EXPECT_TRUE(fs::exists(options.out / kManifest));
 }
 
 // A limit of the size of files stands for a full disk.

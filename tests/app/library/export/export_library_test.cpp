@@ -288,7 +288,9 @@ TEST(ExportLibrary, ReportsAMissingObject) {
   ASSERT_FALSE(report);
   EXPECT_EQ(report.error().code, Errc::kBadInput);
   EXPECT_EQ(report.error().next,
-            "make it again with marey library build " + scene.library().string());
+            "delete the file if it exists, then build the library again: marey library "
+            "build " +
+                scene.library().string());
   EXPECT_TRUE(fs::is_empty(scene.out("")));
 }
 

@@ -47,7 +47,8 @@ inline std::vector<float> smooth_rows(std::uint64_t seed, int count) {
 inline SearchClip search_clip(int number, int first, int last) {
   SearchClip out;
   ClipRecord& record = out.record;
-  record.clip_id = "c1f0" + std::string(11, '0') + static_cast<char>('a' + number);
+  record.clip_id = "c1f0" + std::string(11, '0') + static_cast<char>('0' + number);
+  record.object_key = std::string(64, 'a');
   record.name = "clip " + std::to_string(number);
   record.provenance.licence = number % 2 == 0 ? "CC0-1.0" : "unknown";
   record.first_frame = first;

@@ -143,7 +143,7 @@ TEST_F(LibraryAnnotate, NamesFiveOfManyUnknownNames) {
 
 TEST_F(LibraryAnnotate, RefusesNamesAndFilesThatCannotBeStored) {
   auto args = import("anna.csv", std::string(kTableHeader) + "b/walk,0,1,walk,,\n");
-  for (const char* name : {"verdicts", "marey", "../x", ".x"}) {
+  for (const char* name : {"verdicts", "page", "marey", "../x", ".x"}) {
     args.by = name;
     EXPECT_EQ(annotate(args).exit, Exit::kUsage) << name;
   }

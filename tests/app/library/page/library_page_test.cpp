@@ -13,13 +13,16 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/library/page/library_desk.h"
+#include "app/library/page/library_page_server.h"
 #include "app/library/page/library_view.h"
 #include "app/view/page_server.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/library/label_file.h"
 #include "recordings/library/verdict_file.h"
+#include "tests/app/library/build/walk_library.h"
 #include "tests/app/library/page/page_library.h"
+#include "tests/support/program/paths.h"
+#include "tests/support/program/run_program.h"
 #include "tests/support/program/scratch_folder.h"
 #include "tests/support/program/web_socket.h"
 
@@ -39,14 +42,15 @@ class LibraryPage : public ::testing::Test {
     testing::write_page_library(folder.path(), testing::sample_page_clips(clips));
     start();
   }
-  void start() {
+  void start() { start(folder.path()); }
+  void start(const std::filesystem::path& place) {
     PageServerOptions options;
     options.port = 0;
     options.open = false;
     auto started = start_page(options);
     ASSERT_TRUE(started) << started.error().message();
     page = std::make_unique<PageServer>(*std::move(started));
-    desk = std::make_unique<LibraryDesk>(folder.path(), "", page->server);
+    library_server = std::make_unique<LibraryPageServer>(place, "", page->server);
     socket = std::make_unique<WebSocketClient>(page->server.port());
     ASSERT_EQ(testing::status(socket->upgrade()), 101);
     library = receive();
@@ -64,7 +68,7 @@ class LibraryPage : public ::testing::Test {
     EXPECT_TRUE(page->server.wait_for_text(5000ms));
     std::vector<live::ReceivedText> texts;
     page->server.take_texts(texts);
-    for (const auto& text : texts) desk->answer(text);
+    for (const auto& text : texts) library_server->answer(text);
     return receive();
   }
   Json list(const std::string& query = "", const Json& quality = nullptr) {
@@ -82,7 +86,7 @@ class LibraryPage : public ::testing::Test {
 
   testing::ScratchFolder folder;
   std::unique_ptr<PageServer> page;
-  std::unique_ptr<LibraryDesk> desk;
+  std::unique_ptr<LibraryPageServer> library_server;
   std::unique_ptr<WebSocketClient> socket;
   Json library;
 };
@@ -156,6 +160,22 @@ TEST_F(LibraryPage, ShowsAClipWithItsNeighbours) {
   EXPECT_EQ(testing::status(answer), 200);
   EXPECT_EQ(testing::body(answer).substr(0, 4), "MRMB");
   EXPECT_TRUE(clip(1, true)["mirrored"].get<bool>());
+}
+
+TEST_F(LibraryPage, ShowsNeighboursOfABuiltLibrary) {
+  const WalkLibrary walks(3);
+  const std::filesystem::path place = walks.make("library");
+  ASSERT_TRUE(recordings::write_file(walks.walks() / "deep/broken.bvh", "HIERARCHY"));
+  const auto built =
+      testing::run_program(testing::program(), {"library", "build", place.string()});
+  ASSERT_TRUE(std::filesystem::exists(place / "library.sqlite")) << built.err;
+  start(place);
+  EXPECT_EQ(library["clips"], 3);
+  EXPECT_EQ(library["failed"], 1);
+  const Json shown = clip(0);  // The shortest: all others are long enough.
+  EXPECT_EQ(shown["neighbour_trouble"], "");
+  EXPECT_EQ(shown["neighbours"].size(), 2U);
+  EXPECT_EQ(shown["scene"]["skeletons"].size(), 3U);
 }
 
 TEST_F(LibraryPage, RemovesOldMotions) {
@@ -243,10 +263,9 @@ TEST_F(LibraryPage, ReadsNoObjectOutsideTheLibrary) {
 }
 
 TEST_F(LibraryPage, ListsWithoutSearchFiles) {
-  open();
+  testing::write_page_library(folder.path(), testing::sample_page_clips(kClips));
   std::filesystem::remove_all(folder / "search");
-  desk->look();
-  library = receive();
+  start();
   EXPECT_EQ(library["clips"], kClips);
   const Json shown = clip(0);
   EXPECT_NE(shown["neighbour_trouble"], "");
@@ -258,7 +277,7 @@ TEST_F(LibraryPage, NoticesThatTheLibraryWasBuiltAgain) {
   const Json before = list();
   std::filesystem::remove(folder / "library.sqlite");
   testing::write_page_library(folder.path(), testing::sample_page_clips(3));
-  desk->look();
+  library_server->look();
   const Json now = receive();
   EXPECT_EQ(now["type"], "library");
   EXPECT_EQ(now["clips"], 3);

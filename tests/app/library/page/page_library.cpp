@@ -136,7 +136,7 @@ class SearchWriter {
 void write_page_library(const fs::path& folder, std::span<const PageClip> clips) {
   need(recordings::write_file(folder / "library.toml",
                               recordings::new_library_text("Test motions")));
-  SearchWriter search(folder / "search");
+  SearchWriter search(folder / "search" / "rows");
   std::vector<ClipRecord> records;
   for (const PageClip& clip : clips) {
     const LibraryMotion motion = need(library::make_library_motion(clip.motion));
@@ -148,7 +148,9 @@ void write_page_library(const fs::path& folder, std::span<const PageClip> clips)
     search.add(motion.motion, map);
   }
   search.commit();
-  need(recordings::write_library_index(folder / "library.sqlite", records));
+  recordings::IndexHead head;
+  head.search = "rows";
+  need(recordings::write_library_index(folder / "library.sqlite", records, head));
 }
 
 std::vector<PageClip> sample_page_clips(int count) {

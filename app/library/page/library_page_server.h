@@ -11,8 +11,8 @@
 
 #include "library/quality/quality_limits.h"
 
+#include "app/library/find/clip_motions.h"
 #include "app/library/page/clip_listing.h"
-#include "app/library/page/clip_motions.h"
 #include "app/library/page/clip_neighbours.h"
 #include "app/library/page/library_messages.h"
 #include "app/view/view_page.h"
@@ -22,13 +22,15 @@
 namespace marey::app {
 
 /// Answers the messages of the pages of one library. Reads only library.toml,
-/// library.sqlite, the search files, and objects that the index names. Writes only the
-/// tables of app/library/page/page_corrections.h. One thread.
-class LibraryDesk {
+/// library.sqlite, the search files, failed/, and objects that the index names. Writes
+/// only the tables of app/library/page/page_corrections.h. One thread.
+class LibraryPageServer {
  public:
   /// Reads the index, and publishes the state of the library. A library without an index,
-  /// or with a damaged one, is served with the reason. `server` must outlive the desk.
-  LibraryDesk(std::filesystem::path library, std::string query, live::WebServer& server);
+  /// or with a damaged one, is served with the reason. `server` must outlive this object.
+  LibraryPageServer(std::filesystem::path library,
+                    std::string query,
+                    live::WebServer& server);
 
   /// Carries out one message. The answer goes to its page.
   void answer(const live::ReceivedText& text);
@@ -41,11 +43,10 @@ class LibraryDesk {
   [[nodiscard]] const LibraryState& state() const { return state_; }
 
  private:
-  /// Files of a build.
+  /// Time and size of the index. A build replaces it last.
   struct Stamp {
     std::filesystem::file_time_type index{};
     std::uintmax_t index_bytes = 0;
-    std::filesystem::file_time_type search{};
     bool operator==(const Stamp&) const = default;
   };
   using Answer = Result<std::string>;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/library/page/library_desk.h"
+#include "app/library/page/library_page_server.h"
 
 #include <algorithm>
 #include <system_error>
@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "app/library/check/failed_source.h"
 #include "app/library/page/clip_scene.h"
 #include "app/library/page/page_corrections.h"
 #include "live/page/page_scene.h"
@@ -22,31 +23,24 @@ constexpr int kNeighbours = 3;
 constexpr std::size_t kKeptScenes = 12;
 constexpr std::size_t kMaxDrawings = 4096;
 
-/// Counts the reports of sources that gave no clip.
-int count_failed(const fs::path& library) {
-  int count = 0;
-  std::error_code problem;
-  for (fs::directory_iterator at(library / "failed", problem), end; !problem && at != end;
-       at.increment(problem)) {
-    if (at->path().extension() == ".txt") ++count;
-  }
-  return count;
-}
-
 double row_time_s(const ClipRecord& clip, int row) {
   return first_row_s(clip.first_frame, clip.rate_hz) + 0.1 * row;
 }
 
 }  // namespace
 
-LibraryDesk::LibraryDesk(fs::path library, std::string query, live::WebServer& server)
-    : library_(std::move(library)), server_(server), motions_(library_) {
+LibraryPageServer::LibraryPageServer(fs::path library,
+                                     std::string query,
+                                     live::WebServer& server)
+    : library_(std::move(library)),
+      server_(server),
+      motions_(library_, OuterLinks::kRefuse) {
   state_.query = std::move(query);
   state_.folder = library_.string();
   open();
 }
 
-LibraryDesk::Stamp LibraryDesk::stamp() const {
+LibraryPageServer::Stamp LibraryPageServer::stamp() const {
   Stamp out;
   std::error_code ignored;  // A missing file has the zero stamp.
   const fs::path index = library_ / "library.sqlite";
@@ -54,22 +48,22 @@ LibraryDesk::Stamp LibraryDesk::stamp() const {
   if (!ignored) out.index = time;
   const auto bytes = fs::file_size(index, ignored);
   if (!ignored) out.index_bytes = bytes;
-  const auto search = fs::last_write_time(library_ / "search" / "features.f32", ignored);
-  if (!ignored) out.search = search;
   return out;
 }
 
-void LibraryDesk::open() {
+void LibraryPageServer::open() {
   stamp_ = stamp();
   listing_.reset();
   neighbours_.reset();
   neighbour_trouble_.clear();
   drawings_.clear();
-  motions_ = ClipMotions(library_);
+  motions_ = ClipMotions(library_, OuterLinks::kRefuse);
   ++state_.revision;
   state_.clips = 0;
   state_.trouble.clear();
-  state_.failed = count_failed(library_);
+  // A report that cannot be read hides no clip: `marey library check` states the reason.
+  const auto failed = read_failed_sources(library_);
+  state_.failed = failed ? static_cast<int>(failed->size()) : 0;
   const auto settings = recordings::read_library(library_ / "library.toml");
   state_.name =
       settings && !settings->name.empty() ? settings->name : library_.filename().string();
@@ -98,14 +92,15 @@ void LibraryDesk::open() {
     }
   }
   // In the place of a scene, so that a new page gets it first.
-  server_.publish_text(live::PageMessage::kScene, library_json(state_));
+  server_.publish_text(live::PageMessage::kScene, library_page_json(state_));
 }
 
-void LibraryDesk::look() {
+void LibraryPageServer::look() {
   if (stamp() != stamp_) open();
 }
 
-Result<std::vector<ClipRecord>> LibraryDesk::records(std::vector<int> numbers) const {
+Result<std::vector<ClipRecord>> LibraryPageServer::records(
+    std::vector<int> numbers) const {
   auto out = recordings::read_library_records(library_ / "library.sqlite", numbers);
   if (!out) return out;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -116,8 +111,8 @@ Result<std::vector<ClipRecord>> LibraryDesk::records(std::vector<int> numbers) c
   return out;
 }
 
-LibraryDesk::Answer LibraryDesk::list(const LibraryAsker& asker,
-                                      const live::LibraryListRequest& request) {
+LibraryPageServer::Answer LibraryPageServer::list(
+    const LibraryAsker& asker, const live::LibraryListRequest& request) {
   const auto found = listing_->find(request);
   if (!found) return found.error();
   const std::vector<int>& numbers = (*found)->numbers;
@@ -132,7 +127,7 @@ LibraryDesk::Answer LibraryDesk::list(const LibraryAsker& asker,
 }
 
 /// Draws clips that have no drawing yet. A clip without a motion gets an empty one.
-void LibraryDesk::add_drawings(const std::vector<int>& numbers) {
+void LibraryPageServer::add_drawings(const std::vector<int>& numbers) {
   if (drawings_.size() + numbers.size() > kMaxDrawings) drawings_.clear();
   std::vector<int> missing;
   for (const int number : numbers) {
@@ -149,8 +144,8 @@ void LibraryDesk::add_drawings(const std::vector<int>& numbers) {
   }
 }
 
-LibraryDesk::Answer LibraryDesk::draw(const LibraryAsker& asker,
-                                      const live::LibraryPosesRequest& request) {
+LibraryPageServer::Answer LibraryPageServer::draw(
+    const LibraryAsker& asker, const live::LibraryPosesRequest& request) {
   for (const int clip : request.clips) {
     if (clip >= listing_->size()) {
       return bad_input("clips", "there is no such clip", "load the list again");
@@ -163,7 +158,7 @@ LibraryDesk::Answer LibraryDesk::draw(const LibraryAsker& asker,
 }
 
 /// Serves the media of a scene, and removes those of the oldest one.
-void LibraryDesk::serve(PageOfRecording page) {
+void LibraryPageServer::serve(PageOfRecording page) {
   std::vector<std::string>& paths = served_.emplace_back();
   for (live::WebContent& content : page.media) {
     paths.push_back(content.path);
@@ -176,9 +171,9 @@ void LibraryDesk::serve(PageOfRecording page) {
 }
 
 /// Makes the scene of a clip and its neighbours.
-void LibraryDesk::add_neighbours(const live::LibraryClipRequest& request,
-                                 const LibraryMotion& motion,
-                                 ShownClip& shown) {
+void LibraryPageServer::add_neighbours(const live::LibraryClipRequest& request,
+                                       const LibraryMotion& motion,
+                                       ShownClip& shown) {
   std::vector<ComparedMotion> others;
   FoundNeighbours found;
   if (neighbours_) {
@@ -217,8 +212,8 @@ void LibraryDesk::add_neighbours(const live::LibraryClipRequest& request,
   serve(std::move(scene->page));
 }
 
-LibraryDesk::Answer LibraryDesk::show(const LibraryAsker& asker,
-                                      const live::LibraryClipRequest& request) {
+LibraryPageServer::Answer LibraryPageServer::show(
+    const LibraryAsker& asker, const live::LibraryClipRequest& request) {
   if (request.clip >= listing_->size()) {
     return bad_input("clip", "there is no such clip", "load the list again");
   }
@@ -237,11 +232,11 @@ LibraryDesk::Answer LibraryDesk::show(const LibraryAsker& asker,
   } else {
     shown.trouble = motion.error().message();
   }
-  return clip_json(asker, shown, *listing_, limits_);
+  return shown_clip_json(asker, shown, *listing_, limits_);
 }
 
-LibraryDesk::Answer LibraryDesk::store(const LibraryAsker& asker,
-                                       const live::LibraryVerdictRequest& request) {
+LibraryPageServer::Answer LibraryPageServer::store(
+    const LibraryAsker& asker, const live::LibraryVerdictRequest& request) {
   if (!listing_->find(request.clip_id)) {
     return bad_input(request.clip_id, "there is no such clip", "load the list again");
   }
@@ -249,8 +244,8 @@ LibraryDesk::Answer LibraryDesk::store(const LibraryAsker& asker,
   return stored_json(asker, kVerdictTable);
 }
 
-LibraryDesk::Answer LibraryDesk::store(const LibraryAsker& asker,
-                                       const live::LibraryLabelRequest& request) {
+LibraryPageServer::Answer LibraryPageServer::store(
+    const LibraryAsker& asker, const live::LibraryLabelRequest& request) {
   if (!listing_->find(request.clip_id)) {
     return bad_input(request.clip_id, "there is no such clip", "load the list again");
   }
@@ -259,8 +254,8 @@ LibraryDesk::Answer LibraryDesk::store(const LibraryAsker& asker,
 }
 
 /// Returns the answer; empty: none.
-LibraryDesk::Answer LibraryDesk::carry_out(const LibraryAsker& asker,
-                                           const live::LibraryPageRequest& request) {
+LibraryPageServer::Answer LibraryPageServer::carry_out(
+    const LibraryAsker& asker, const live::LibraryPageRequest& request) {
   return std::visit(
       [&](const auto& body) -> Answer {
         using Body = std::decay_t<decltype(body)>;
@@ -279,7 +274,7 @@ LibraryDesk::Answer LibraryDesk::carry_out(const LibraryAsker& asker,
       request.body);
 }
 
-void LibraryDesk::answer(const live::ReceivedText& text) {
+void LibraryPageServer::answer(const live::ReceivedText& text) {
   LibraryAsker asker;
   asker.revision = state_.revision;
   const auto request = live::read_library_request(text.text);
