@@ -80,6 +80,7 @@ std::vector<FigureSummary> summarize_figures(const std::vector<ClipRecord>& clip
     FigureSummary& summary = found->second.summary;
     summary.figure = rule.figure;
     summary.kind = rule.kind;
+    summary.is_judged = rule.is_judged;
     summary.warn = rule.warn;
     summary.fail = rule.fail;
     finish_summary(found->second);

@@ -26,8 +26,9 @@ struct ClipTotal {
 /// One figure over all clips that have it.
 struct FigureSummary {
   std::string figure;
-  std::string kind;   ///< Kind of its problems; empty: it is no figure of the gate.
-  double warn = 0.0;  ///< Limits of the library; both 0: only reported.
+  std::string kind;        ///< Kind of its problems; empty: it is no figure of the gate.
+  bool is_judged = false;  ///< FigureRule::is_judged; false: only reported.
+  double warn = 0.0;       ///< Limits of the library.
   double fail = 0.0;
   int clips = 0;
   std::array<int, kVerdictCount> verdicts{};  ///< Clips by verdict.
@@ -35,8 +36,6 @@ struct FigureSummary {
   double p95 = 0.0;
   double max = 0.0;
   std::size_t worst_clip = 0;  ///< Index of the first clip with the maximum.
-
-  [[nodiscard]] bool has_limits() const { return fail > 0.0; }
 };
 
 /// One kind of problem over all clips.
