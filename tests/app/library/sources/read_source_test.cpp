@@ -137,10 +137,15 @@ TEST(ReadSource, KeepsTheRatesOfAllPlaces) {
   options.table_rate_hz = 60.0;
   const auto by_option = motions_of(folder / "a.npz", options, source);
   EXPECT_EQ(by_option.at(0).motion.rate.hz, 60.1);
-  EXPECT_EQ(by_option[0].rates.table_hz, 60.0);
   EXPECT_EQ(by_option[0].rates.file_hz, 60.0);
   EXPECT_EQ(by_option[0].rates.basis(), RateBasis::kOption);
   EXPECT_EQ(stated_ratio(by_option[0]), 1.0) << "they agree within 1 %";
+  source.rate_hz = 60.5;
+  options.table_rate_hz = std::nullopt;
+  const auto rounded = motions_of(folder / "a.npz", options, source);
+  EXPECT_EQ(rounded.at(0).motion.rate.hz, 60.5);
+  EXPECT_FALSE(has_remark(rounded[0], "states")) << "a difference of 0.8 %";
+  source.rate_hz = 60.1;
   // The table describes a recording of another rate, and this file is a copy of it.
   options.table_rate_hz = 30.0;
   options.table_duration_s = 90 / 60.0;
@@ -150,18 +155,6 @@ TEST(ReadSource, KeepsTheRatesOfAllPlaces) {
   EXPECT_EQ(stated_ratio(copy[0]), 1.0);
   source.rate_hz = 1e9;
   EXPECT_NE(refusal_of(folder / "a.npz", {}, source).find("a.npz"), std::string::npos);
-}
-
-TEST(ReadSource, GuessedRatesContradictNothing) {
-  SourceRates rates;
-  rates.file_hz = 120.0;
-  rates.table_hz = 60.0;
-  EXPECT_TRUE(rates.contradiction());
-  rates.file_is_guessed = true;
-  EXPECT_FALSE(rates.contradiction());
-  rates.option_hz = 30.0;
-  EXPECT_TRUE(rates.contradiction()) << "option and table differ";
-  EXPECT_EQ(rates.used_hz(), 30.0);
 }
 
 TEST(ReadSource, PutsFeetOnTheFloor) {
