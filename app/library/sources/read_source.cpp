@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <set>
 #include <utility>
 
 #include "library/quality/rate_witnesses.h"
@@ -178,6 +179,21 @@ void set_rate(const LibrarySource& source,
 
 }  // namespace
 
+void number_equal_bodies(std::vector<SourceMotion>& all) {
+  std::set<std::string> names;
+  for (const SourceMotion& motion : all) names.insert(motion.body);
+  std::set<std::string> used;
+  for (SourceMotion& motion : all) {
+    if (used.insert(motion.body).second) continue;
+    const std::string name = motion.body.empty() ? "body" : motion.body;
+    for (std::size_t k = 2; names.contains(motion.body); ++k) {
+      motion.body = name + " (" + std::to_string(k) + ")";
+    }
+    names.insert(motion.body);
+    used.insert(motion.body);
+  }
+}
+
 Result<std::vector<SourceMotion>> read_source(const SourceFile& file,
                                               const LibrarySource& source,
                                               const ReadSourceOptions& options) {
@@ -191,6 +207,7 @@ Result<std::vector<SourceMotion>> read_source(const SourceFile& file,
   }
   auto all = read_by_kind(file, stated_hz, options.scratch);
   if (!all) return all;
+  number_equal_bodies(*all);
   for (SourceMotion& motion : *all) {
     set_rate(source, options, motion);
     const Status ok = clean_motion(options.clean, is_solved(file), motion);
