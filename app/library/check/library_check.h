@@ -78,6 +78,11 @@ struct LibraryCheck {
 /// has a verdict that is worse.
 [[nodiscard]] Verdict verdict_of_kind(const ClipRecord& clip, std::string_view kind);
 
+/// Returns the unit of the values of a kind of problem, with a blank before it: " mm",
+/// " cm/s", " deg", " s". It is that of the kind's figures (FigureRule::figure); empty:
+/// they have none, or different ones.
+[[nodiscard]] std::string unit_of_kind(std::string_view kind);
+
 /// Start and end of frames of a clip, from its first frame. [s]
 struct SecondsRange {
   double start_s = 0.0;

@@ -109,6 +109,15 @@ TEST(LibraryCheck, LimitsOfZeroAreLimits) {
   EXPECT_EQ(check.figures[0].verdicts[2], 1);
 }
 
+TEST(LibraryCheck, KnowsTheUnitsOfProblems) {
+  EXPECT_EQ(unit_of_kind("jitter"), " mm");
+  EXPECT_EQ(unit_of_kind("tilt"), " deg");
+  EXPECT_EQ(unit_of_kind("frozen"), " s");
+  EXPECT_EQ(unit_of_kind("spike"), "");
+  EXPECT_EQ(unit_of_kind("slide"), "") << "cm/s and mm";
+  EXPECT_EQ(unit_of_kind("fit"), "") << "no figure of the gate";
+}
+
 TEST(LibraryCheck, PrintsTheWorstWithTimesAndReasons) {
   const std::string text = text_of_check(four_clips(), 2);
   for (const char* part :
