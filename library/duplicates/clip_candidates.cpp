@@ -175,7 +175,6 @@ std::optional<ClipCandidate> CandidateSearch::compare(int original,
                        std::abs(out.shift) <= rule_.max_shift_s * kFeatureRate_hz + 1e-9;
   if (!is_same && shorter == longer) return std::nullopt;
   out.is_contained = !is_same && clip_.count() < other_.count();
-  out.contains = !is_same && !out.is_contained;
   out.agrees = agreement->distance <= kRounding + rule_.max_distance * agreement->change;
   if (out.agrees) return out;
   // Short motions of one kind are too much alike for the full limit.

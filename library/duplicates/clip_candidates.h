@@ -22,7 +22,6 @@ struct ClipCandidate {
   bool agrees = false;         ///< It fulfils the rule, but for being distinct.
   bool is_mirrored = false;    ///< The clip was compared as its mirror image.
   bool is_contained = false;   ///< A part of the original.
-  bool contains = false;       ///< The original is a part of it.
   bool is_other_body = false;  ///< It agrees, or is near, by its course only.
   double shift = 0.0;          ///< Row of the original at the clip's first row.
   double distance = 0.0;       ///< Over the change within 0.1 s.

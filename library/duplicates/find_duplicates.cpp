@@ -33,14 +33,17 @@ auto rank(const ClipCandidate& candidate) {
 /// Chooses the original of each clip from all candidates.
 class OriginalChoice {
  public:
-  OriginalChoice(std::vector<std::vector<ClipCandidate>> candidates)
-      : candidates_(std::move(candidates)), chosen_(candidates_.size()) {}
+  OriginalChoice(const ClipRows& features,
+                 std::vector<std::vector<ClipCandidate>> candidates)
+      : features_(features),
+        candidates_(std::move(candidates)),
+        chosen_(candidates_.size()) {}
 
   std::vector<DuplicateClip> choose() {
     for (std::size_t c = 0; c < candidates_.size(); ++c) {
       const ClipCandidate* best = nullptr;
       for (const ClipCandidate& one : candidates_[c]) {
-        if (!one.agrees || !may_stay(one, static_cast<int>(c))) continue;
+        if (!one.agrees || !may_stay(one.original, static_cast<int>(c))) continue;
         if (best == nullptr || rank(one) < rank(*best)) best = &one;
       }
       if (best != nullptr) chosen_[c] = *best;
@@ -58,9 +61,13 @@ class OriginalChoice {
   }
 
  private:
-  // The longer one of two clips stays; of equal ones, the first.
-  static bool may_stay(const ClipCandidate& one, int clip) {
-    return one.is_contained || (!one.contains && one.original < clip);
+  // The clip with more rows stays; of equally long ones, the first. A tolerance of the
+  // lengths would not be transitive: then three clips can be originals in a circle, and
+  // no copy remains.
+  [[nodiscard]] bool may_stay(int original, int clip) const {
+    const auto rows = features_.row_count(original);
+    const auto own_rows = features_.row_count(clip);
+    return rows != own_rows ? rows > own_rows : original < clip;
   }
 
   [[nodiscard]] bool are_related(int a, int b) const {
@@ -91,10 +98,8 @@ class OriginalChoice {
                       first.is_contained,
                       first.shift / kFeatureRate_hz,
                       first.distance};
-    // Each step leads to an earlier or a longer clip.
-    for (std::size_t steps = 0; steps < chosen_.size(); ++steps) {
-      const auto& next = chosen_[static_cast<std::size_t>(out.original)];
-      if (!next || next->original == clip) break;
+    // Ends, since each step leads to a clip that may_stay() prefers.
+    while (const auto& next = chosen_[static_cast<std::size_t>(out.original)]) {
       out.original = next->original;
       out.is_mirrored = out.is_mirrored != next->is_mirrored;
       out.is_contained = out.is_contained || next->is_contained;
@@ -103,6 +108,7 @@ class OriginalChoice {
     return out;
   }
 
+  const ClipRows& features_;
   std::vector<std::vector<ClipCandidate>> candidates_;
   std::vector<std::optional<ClipCandidate>> chosen_;
 };
@@ -151,7 +157,7 @@ std::vector<DuplicateClip> find_duplicates(const ClipRows& features,
     }
   });
   add_equal_clips(features, candidates);
-  return OriginalChoice(std::move(candidates)).choose();
+  return OriginalChoice(features, std::move(candidates)).choose();
 }
 
 }  // namespace marey::library

@@ -24,9 +24,10 @@ constexpr std::array<std::string_view, 10> kFreeOfConditions{"cc0-1.0",
                                                              "cdla-permissive-2.0",
                                                              "c-uda-1.0"};
 
-constexpr std::array<std::string_view, 16> kWithAttribution{"mit",
+constexpr std::array<std::string_view, 17> kWithAttribution{"mit",
                                                             "mit-cmu",
                                                             "apache-2.0",
+                                                            "bsd-1-clause",
                                                             "bsd-2-clause",
                                                             "bsd-3-clause",
                                                             "bsd-3-clause-clear",
@@ -41,13 +42,13 @@ constexpr std::array<std::string_view, 16> kWithAttribution{"mit",
                                                             "postgresql",
                                                             "afl-3.0"};
 
-constexpr std::array<std::string_view, 22> kSameLicence{
+constexpr std::array<std::string_view, 23> kSameLicence{
     "odbl-1.0",          "cdla-sharing-1.0",  "gpl-2.0",           "gpl-2.0-only",
     "gpl-2.0-or-later",  "gpl-3.0",           "gpl-3.0-only",      "gpl-3.0-or-later",
     "lgpl-2.1",          "lgpl-2.1-only",     "lgpl-2.1-or-later", "lgpl-3.0",
     "lgpl-3.0-only",     "lgpl-3.0-or-later", "agpl-3.0",          "agpl-3.0-only",
     "agpl-3.0-or-later", "mpl-2.0",           "epl-2.0",           "eupl-1.2",
-    "ofl-1.1",           "gfdl-1.3-or-later"};
+    "ofl-1.1",           "gfdl-1.3-or-later", "artistic-2.0"};
 
 template <class List>
 bool contains(const List& list, std::string_view word) {
@@ -164,8 +165,8 @@ class LicenceParser {
     const std::string lower = lower_case(word);
     if (word.empty() || lower == "and" || lower == "or" || lower == "with") return false;
     return std::ranges::all_of(lower, [](char c) {
-      return is_ascii_digit(c) || (c >= 'a' && c <= 'z') || c == '-' || c == '.' || c == '+' ||
-             c == ':';
+      return is_ascii_digit(c) || (c >= 'a' && c <= 'z') || c == '-' || c == '.' ||
+             c == '+' || c == ':';
     });
   }
 

@@ -14,11 +14,10 @@ namespace marey::library {
 /// are differences of a high order, which smooth motion hardly contains.
 ///
 /// - spike: e(t) is the eighth difference of a joint's positions over 70, so that a
-/// single
-///   displaced position counts in full; maximum of |e| / (s + c m), with m the median of
-///   |e| over the frames on either side that a spike at t does not change. s is 16 mm and
-///   c 0.5 at 30 Hz; at higher rates s goes down in inverse proportion, to 4 mm, and c
-///   up, to 1.5.
+///   single displaced position counts in full; maximum of |e| / (s + c m), with m the
+///   median of |e| over the frames on either side that a spike at t does not change. s is
+///   16 mm and c 0.5 at 30 Hz; at higher rates s goes down in inverse proportion, to
+///   4 mm, and c up, to 1.5.
 /// - jitter_mm: eighth differences of each bone's end in the frame of the bone's parent:
 ///   noise is in each joint, whereas neighbouring bones share smooth motion and impacts.
 ///   Per bone the median in windows of 0.4 s, the 20 % quantile of the windows, so that

@@ -11,6 +11,12 @@
 namespace marey::library {
 namespace {
 
+constexpr FigureRule reported(std::string_view figure, std::string_view kind) {
+  FigureRule out{figure, kind};
+  out.is_judged = false;
+  return out;
+}
+
 constexpr std::array kRules{
     FigureRule{"scale_sigma", "scale", 4.0, 7.0},
     FigureRule{"sides_share", "sides", 0.6, 0.85},
@@ -34,14 +40,14 @@ constexpr std::array kRules{
     FigureRule{"sigma_p95_mm", "sigma", 20.0, 50.0},
     FigureRule{"residual_mm", "residual", 15.0, 30.0, true},
     FigureRule{"bones_mm", "bones", 3.0, 15.0, true},
-    FigureRule{"flights", "flights"},
-    FigureRule{"proportions", "proportions"},
-    FigureRule{"seconds", "seconds"},
-    FigureRule{"sparc", "sparc"},
-    FigureRule{"speed_m_s", "speed"},
-    FigureRule{"stature_m", "stature"},
-    FigureRule{"still_share", "still"},
-    FigureRule{"tpose_share", "tpose"},
+    reported("flights", "flights"),
+    reported("proportions", "proportions"),
+    reported("seconds", "seconds"),
+    reported("sparc", "sparc"),
+    reported("speed_m_s", "speed"),
+    reported("stature_m", "stature"),
+    reported("still_share", "still"),
+    reported("tpose_share", "tpose"),
 };
 
 }  // namespace
@@ -57,6 +63,7 @@ QualityLimits::QualityLimits(std::span<const QualityLimit> own)
       if (rule.figure != limit.figure) continue;
       rule.warn = limit.warn;
       rule.fail = limit.fail;
+      rule.is_judged = true;
     }
   }
 }
@@ -72,7 +79,7 @@ const FigureRule& QualityLimits::operator[](std::string_view figure) const {
 std::optional<Verdict> QualityLimits::verdict(std::string_view figure,
                                               double value) const {
   const FigureRule& rule = (*this)[figure];
-  if (!rule.has_verdict()) return std::nullopt;
+  if (!rule.is_judged) return std::nullopt;
   if (value > rule.fail) return Verdict::kFail;
   return value > rule.warn ? Verdict::kWarn : Verdict::kPass;
 }

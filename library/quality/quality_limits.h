@@ -16,12 +16,14 @@ struct FigureRule {
   std::string_view figure;  ///< ClipFigure::name; the unit is a part of it.
   std::string_view kind;    ///< ClipProblem::kind of its problems.
   double warn = 0.0;        ///< Above this value a warning,
-  double fail = 0.0;        ///< and above this one a failure. Both 0: only reported.
+  double fail = 0.0;        ///< and above this one a failure.
   /// True: the figure does not follow from the motion. Its reader or solver passes it to
   /// measure_quality(); other clips do not have it.
   bool is_outside = false;
+  /// False: the figure is only reported, without limits. Limits may be 0.
+  bool is_judged = true;
 
-  [[nodiscard]] bool has_verdict() const { return fail > 0.0; }
+  [[nodiscard]] bool has_verdict() const { return is_judged; }
 };
 
 /// Returns all figures of the gate with their default limits. docs/accuracy/
@@ -34,7 +36,7 @@ struct FigureRule {
 class QualityLimits {
  public:
   /// Limits of figures that do not exist are ignored: the reader of library.toml reports
-  /// them.
+  /// them. A figure with own limits is judged.
   explicit QualityLimits(std::span<const QualityLimit> own);
 
   /// Precondition: the figure is one of figure_rules().

@@ -3,7 +3,6 @@
 #include "library/quality/rate_witnesses.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace marey::library {
@@ -21,17 +20,6 @@ bool is_stated(const std::optional<double>& hz) {
   return hz && *hz > 0.0 && std::isfinite(*hz);
 }
 
-const ClipFigure* figure_named(std::span<const ClipFigure> figures,
-                               std::string_view name) {
-  const auto found = std::find_if(
-      figures.begin(), figures.end(), [&](const auto& one) { return one.name == name; });
-  return found == figures.end() ? nullptr : &*found;
-}
-
-bool is_warned(const ClipFigure* figure) {
-  return figure != nullptr && figure->verdict && *figure->verdict != Verdict::kPass;
-}
-
 }  // namespace
 
 bool is_resampled_copy(const RateWitnesses& witnesses) {
@@ -46,7 +34,7 @@ bool is_resampled_copy(const RateWitnesses& witnesses) {
 
 std::optional<StatedRate> choose_rate(const RateWitnesses& witnesses) {
   RateWitnesses stated = witnesses;
-  if (is_resampled_copy(witnesses)) stated.table_hz = witnesses.file_hz;
+  if (is_resampled_copy(witnesses)) stated.table_hz.reset();
   StatedRate out;
   if (is_stated(stated.option_hz)) {
     out.hz = *stated.option_hz;
@@ -72,23 +60,6 @@ std::optional<StatedRate> choose_rate(const RateWitnesses& witnesses) {
   }
   if (agreeing > 1) out.figure.value = 1.0;
   return out;
-}
-
-std::string_view name(RateTrust trust) {
-  constexpr std::array<std::string_view, 4> kNames{
-      "stated", "proven", "implausible", "contradicted"};
-  return kNames[static_cast<std::size_t>(trust)];
-}
-
-RateTrust rate_trust(std::span<const ClipFigure> figures) {
-  if (is_warned(figure_named(figures, "rate_stated_ratio")))
-    return RateTrust::kContradicted;
-  const ClipFigure* flights = figure_named(figures, "flights");
-  const ClipFigure* ratio = figure_named(figures, "rate_ratio");
-  if (flights == nullptr || ratio == nullptr || flights->value < 2.0) {
-    return RateTrust::kStated;
-  }
-  return is_warned(ratio) ? RateTrust::kImplausible : RateTrust::kProven;
 }
 
 }  // namespace marey::library

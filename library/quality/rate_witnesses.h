@@ -3,8 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
-#include <string_view>
 
 #include "library/quality/found_figure.h"
 
@@ -25,7 +23,7 @@ struct RateWitnesses {
 
 /// The rate of a motion, and its contradictions.
 struct StatedRate {
-  double hz = 0.0;
+  double hz = 0.0;  ///< The rate in use.
   RateBasis basis = RateBasis::kFile;
   /// "rate_stated_ratio", an outside figure of measure_quality(): the largest ratio
   /// between the rate in use and a different statement, at least 1. It is 1 if all agree
@@ -39,24 +37,9 @@ struct StatedRate {
 
 /// Chooses the rate: that of the option, else the table's, else the file's. A file is not
 /// contradicted by a table whose duration is that of the file's own frames and rate,
-/// within 2 % or two frames: such a file is a resampled copy, and its rate is in use.
-/// nullopt: there is no statement, or the chosen rate is not positive.
+/// within 2 % or two frames: such a file is a resampled copy, and its rate is in use,
+/// with the basis kFile if there is no option. nullopt: there is no statement, or the
+/// chosen rate is not positive.
 [[nodiscard]] std::optional<StatedRate> choose_rate(const RateWitnesses& witnesses);
-
-/// Knowledge about a clip's rate.
-enum class RateTrust {
-  kStated,        ///< Nothing but statements: the clip has fewer than two flights.
-  kProven,        ///< Gravity in two or more flights agrees with the rate and the scale.
-  kImplausible,   ///< Gravity in flights disagrees: wrong rate or wrong scale.
-  kContradicted,  ///< Statements disagree.
-};
-
-/// Returns the word for tables and queries: "stated", "proven",
-/// "implausible", "contradicted".
-[[nodiscard]] std::string_view name(RateTrust trust);
-
-/// Returns it for the figures of a clip ("flights", "rate_ratio", "rate_stated_ratio"):
-/// contradicted before implausible before proven. Missing figures count as unknown.
-[[nodiscard]] RateTrust rate_trust(std::span<const ClipFigure> figures);
 
 }  // namespace marey::library

@@ -20,9 +20,8 @@ namespace marey::library {
 ///   "marey"), of 0.1 s or more, cut to the motion. Labels of one interval share a range;
 ///   ranges may overlap, and frames without a label belong to none.
 /// - kStillness: the parts between runs of 0.5 s or longer in which no joint is faster
-/// than
-///   5 cm/s (still_frames()), with 0.25 s of stillness at either side. Disjoint; the rest
-///   of the still frames belong to none. A motion that is still all the time has no
+///   than 5 cm/s (still_frames()), with 0.25 s of stillness at either side. Disjoint; the
+///   rest of the still frames belong to none. A motion that is still all the time has no
 ///   range.
 /// - kSteps: cycles, from the frame in which the left foot starts a stance to the frame
 ///   before its next one, of 0.4 to 3 s, in which the right foot starts a stance, too.

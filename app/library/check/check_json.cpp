@@ -24,7 +24,7 @@ CheckJson frames_json(const std::optional<FrameRange>& frames) {
 }
 
 CheckJson limits_json(const FigureSummary& figure) {
-  return figure.has_limits() ? CheckJson::array({figure.warn, figure.fail}) : CheckJson();
+  return figure.is_judged ? CheckJson::array({figure.warn, figure.fail}) : CheckJson();
 }
 
 CheckJson figure_summary_json(const LibraryCheck& check, const FigureSummary& figure) {

@@ -98,10 +98,12 @@ std::string problem_text(const ClipRecord& clip, const ClipProblem& problem) {
   const SecondsRange range = seconds_of(clip, problem.frames);
   std::string out = "    " + printable(problem.kind);
   if (!problem.joint.empty()) out += " of " + printable(problem.joint);
-  return out + format_text(" at %.2f-%.2f s: %s",
-                           range.start_s,
-                           range.end_s,
-                           short_number(problem.value).c_str());
+  return out +
+         format_text(" at %.2f-%.2f s: %s",
+                     range.start_s,
+                     range.end_s,
+                     short_number(problem.value).c_str()) +
+         unit_of_kind(problem.kind);
 }
 
 void add_worst_clips(const LibraryCheck& check,

@@ -3,9 +3,11 @@
 #include "app/library/check/library_check.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -80,6 +82,7 @@ std::vector<FigureSummary> summarize_figures(const std::vector<ClipRecord>& clip
     FigureSummary& summary = found->second.summary;
     summary.figure = rule.figure;
     summary.kind = rule.kind;
+    summary.is_judged = rule.is_judged;
     summary.warn = rule.warn;
     summary.fail = rule.fail;
     finish_summary(found->second);
@@ -164,6 +167,26 @@ Verdict verdict_of_kind(const ClipRecord& clip, std::string_view kind) {
     }
   }
   return worst;
+}
+
+std::string unit_of_kind(std::string_view kind) {
+  // A longer ending is before its own end.
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kEndings = {{
+      {"_cm_s", " cm/s"},
+      {"_mm", " mm"},
+      {"_deg", " deg"},
+      {"_s", " s"},
+  }};
+  std::optional<std::string_view> unit;
+  for (const library::FigureRule& rule : library::figure_rules()) {
+    if (rule.kind != kind) continue;
+    const auto ending = std::ranges::find_if(
+        kEndings, [&](const auto& one) { return rule.figure.ends_with(one.first); });
+    const std::string_view own = ending == kEndings.end() ? "" : ending->second;
+    if (unit && *unit != own) return {};
+    unit = own;
+  }
+  return std::string(unit.value_or(""));
 }
 
 SecondsRange seconds_of(const ClipRecord& clip, const FrameRange& frames) {

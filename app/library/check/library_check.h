@@ -26,8 +26,9 @@ struct ClipTotal {
 /// One figure over all clips that have it.
 struct FigureSummary {
   std::string figure;
-  std::string kind;   ///< Kind of its problems; empty: it is no figure of the gate.
-  double warn = 0.0;  ///< Limits of the library; both 0: only reported.
+  std::string kind;        ///< Kind of its problems; empty: it is no figure of the gate.
+  bool is_judged = false;  ///< FigureRule::is_judged; false: only reported.
+  double warn = 0.0;       ///< Limits of the library.
   double fail = 0.0;
   int clips = 0;
   std::array<int, kVerdictCount> verdicts{};  ///< Clips by verdict.
@@ -35,8 +36,6 @@ struct FigureSummary {
   double p95 = 0.0;
   double max = 0.0;
   std::size_t worst_clip = 0;  ///< Index of the first clip with the maximum.
-
-  [[nodiscard]] bool has_limits() const { return fail > 0.0; }
 };
 
 /// One kind of problem over all clips.
@@ -78,6 +77,11 @@ struct LibraryCheck {
 /// Returns the worst verdict of the clip's figures of a kind of problem; kWarn if none
 /// has a verdict that is worse.
 [[nodiscard]] Verdict verdict_of_kind(const ClipRecord& clip, std::string_view kind);
+
+/// Returns the unit of the values of a kind of problem, with a blank before it: " mm",
+/// " cm/s", " deg", " s". It is that of the kind's figures (FigureRule::figure); empty:
+/// they have none, or different ones.
+[[nodiscard]] std::string unit_of_kind(std::string_view kind);
 
 /// Start and end of frames of a clip, from its first frame. [s]
 struct SecondsRange {

@@ -184,12 +184,6 @@ Result<int> find_clip(const fs::path& library, const std::string& word) {
   return clips->empty() ? no_clip(index, word) : several_clips(word, *clips);
 }
 
-Result<std::vector<float>> features_of_file(const fs::path& file) {
-  auto read = read_file_features(file);
-  if (!read) return read.error();
-  return std::move((*read).features.rows);
-}
-
 Result<SimilarQuery> read_similar_query(const fs::path& library,
                                         const std::string& text,
                                         const OpenedSearch& search) {

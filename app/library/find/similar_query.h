@@ -32,15 +32,10 @@ divide_range(const std::string& text);
 [[nodiscard]] Result<int> find_clip(const std::filesystem::path& library,
                                     const std::string& word);
 
-/// Returns the features of a motion file, equal to those of a library built from it.
-/// Errors: read_motion()'s, make_library_motion()'s, with the file.
-[[nodiscard]] Result<std::vector<float>> features_of_file(
-    const std::filesystem::path& file);
-
 /// Reads a query: "CLIP", "CLIP@a-b", "FILE" or "FILE@a-b", with a and b in seconds since
 /// its first frame. An existing file is a file; all others are clips, see find_clip().
 /// Errors: (kUsage) a range outside of the motion, or one that does not ascend;
-/// find_clip()'s, features_of_file()'s.
+/// find_clip()'s; read_motion()'s and make_library_motion()'s, with the file.
 [[nodiscard]] Result<SimilarQuery> read_similar_query(
     const std::filesystem::path& library,
     const std::string& text,

@@ -39,10 +39,10 @@ class LabelTargets {
   /// Returns the clip with this id, else the source with this path, else the only source
   /// whose file has this name. Names are compared without folders, extension, and the
   /// endings "_poses" and "_stageii" of AMASS. A source with more folders in common is
-  /// preferred, then one with the same extension. A name with folders fits no source in another folder: the nearest folders
-  /// must be equal, if both have one.
-  /// Nothing is guessed: equally good sources are ambiguous. Constant time per source of
-  /// the same name.
+  /// preferred, then one with the same extension. A name with folders fits no source in
+  /// another folder: the nearest folders must be equal, if both have one. Nothing is
+  /// guessed: equally good sources are ambiguous. Constant time per source of the same
+  /// name.
   [[nodiscard]] LabelTarget find(std::string_view name) const;
 
  private:

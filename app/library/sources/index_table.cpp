@@ -85,11 +85,6 @@ bool is_same_statement(const IndexEntry& a, const IndexEntry& b) {
          a.labels == b.labels && a.subject == b.subject;
 }
 
-/// Returns a file's name without folders and extension.
-std::string stem_of_name(const std::string& name) {
-  return std::filesystem::path(name).filename().stem().string();
-}
-
 }  // namespace
 
 /// Reads a table line by line.
@@ -293,7 +288,7 @@ Result<IndexTable> IndexTable::read(const std::filesystem::path& path) {
 }
 
 std::optional<IndexEntry> IndexTable::find(const SourceFile& file) const {
-  const std::string stem = stem_of_name(file.name);
+  const std::string stem = source_stem(file.name, file.kind);
   const std::string base = std::filesystem::path(file.name).filename().string();
   const std::string path =
       std::filesystem::path(file.name).replace_extension().generic_string();

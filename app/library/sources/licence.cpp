@@ -216,6 +216,10 @@ class LicenceReader {
 
 }  // namespace
 
+std::span<const std::string_view> known_licences() {
+  return kLicences;
+}
+
 Result<std::string> spdx_licence(std::string_view text) {
   if (text == "unknown") return std::string(text);
   return LicenceReader(text).read();

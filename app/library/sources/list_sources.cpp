@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include <fnmatch.h>
+#include <unistd.h>
 
 #include "app/library/sources/source_kind.h"
 #include "core/base/extension.h"
@@ -50,6 +52,13 @@ std::optional<fs::path> path_below(const fs::path& full, const fs::path& above) 
   return below;
 }
 
+/// Returns true for a folder that this user may not read.
+bool is_closed_folder(const fs::path& path) {
+  std::error_code failed;
+  return fs::is_directory(path, failed) && ::access(path.c_str(), R_OK | X_OK) != 0 &&
+         errno == EACCES;
+}
+
 std::uintmax_t bytes_below(const fs::path& folder) {
   std::uintmax_t sum = 0;
   std::error_code failed;
@@ -76,29 +85,37 @@ class SourceLister {
       : library_(library), source_(source), index_(index), known_(known), out_(out) {}
 
   /// Returns the number of files that the source has, known ones included.
-  std::size_t list(const fs::path& root) {
+  Result<std::size_t> list(const fs::path& root) {
     std::error_code failed;
     if (!fs::is_directory(root, failed)) return add_file(root) ? 1 : 0;
     if (add_session(root)) return 1;
     std::size_t count = 0;
+    fs::path last = root;
     const auto options = fs::directory_options::skip_permission_denied;
     for (fs::recursive_directory_iterator at(root, options, failed), end;
          !failed && at != end;
          at.increment(failed)) {
-      const fs::path& path = at->path();
+      last = at->path();
       std::error_code unknown;
       const bool is_folder = at->is_directory(unknown);
-      if (path.filename().string().starts_with('.') ||
-          (is_folder && is_built_folder(path))) {
+      if (last.filename().string().starts_with('.') ||
+          (is_folder && is_built_folder(last))) {
         at.disable_recursion_pending();
-      } else if (is_folder && add_session(path)) {
+      } else if (is_folder && is_closed_folder(last)) {
+        out_.closed_folders.insert(name_of(last));
+        at.disable_recursion_pending();
+      } else if (is_folder && add_session(last)) {
         at.disable_recursion_pending();
         ++count;
-      } else if (at->is_regular_file(unknown) && add_file(path)) {
+      } else if (at->is_regular_file(unknown) && add_file(last)) {
         ++count;
       }
     }
-    return count;
+    if (!failed) return count;
+    return Error{Errc::kDevice,
+                 last.string(),
+                 "the folder cannot be listed: " + failed.message(),
+                 "check the disk and the connection to it, then build again"};
   }
 
  private:
@@ -125,11 +142,18 @@ class SourceLister {
     return add(path.has_parent_path() ? path.parent_path() : fs::path("."), kind);
   }
 
-  bool add(const fs::path& path, const std::string& kind) {
+  /// Returns the path relative to the library if it is below it, else the full path.
+  [[nodiscard]] std::string name_of(const fs::path& path) const {
     std::error_code failed;
     const fs::path full = fs::weakly_canonical(path, failed);
     const auto below = path_below(full, fs::weakly_canonical(library_, failed));
-    const std::string name = below.value_or(full).generic_string();
+    return below.value_or(full).generic_string();
+  }
+
+  bool add(const fs::path& path, const std::string& kind) {
+    std::error_code failed;
+    const fs::path full = fs::weakly_canonical(path, failed);
+    const std::string name = name_of(path);
     if (is_skipped(source_, name)) return false;
     if (!known_.insert(full).second) return true;
     const std::uintmax_t bytes =
@@ -145,21 +169,11 @@ class SourceLister {
   SourceListing& out_;
 };
 
-/// Returns the name of a source without folders and extension.
-std::string stem_of(const SourceFile& file) {
-  const fs::path name = fs::path(file.name).filename();
-  if (file.kind == kSessionKind) return name.string();
-  fs::path stem = name.stem();
-  // NAME.edit.toml
-  if (file.kind == kRecipeKind) stem = stem.stem();
-  return stem.string();
-}
-
 /// Returns the words of a pattern in a file's name, with or without its extension.
 std::vector<std::pair<std::string, std::string>> words_of_file(
     const SourceFile& file, const std::string& pattern) {
   if (pattern.empty()) return {};
-  auto words = words_in_name(stem_of(file), pattern);
+  auto words = words_in_name(source_stem(file.name, file.kind), pattern);
   if (!words.empty()) return words;
   return words_in_name(fs::path(file.name).filename().string(), pattern);
 }
@@ -183,11 +197,19 @@ std::string SourceListing::left_out_text() const {
     kinds += (kinds.empty() ? "" : ", ") + std::to_string(number) + " " +
              (extension.empty() ? "without extension" : extension);
   }
-  if (count == 0) return {};
-  const bool is_one = count == 1;
-  return std::to_string(count) +
-         (is_one ? " file of another kind was" : " files of other kinds were") +
-         " left out: " + kinds;
+  std::string out;
+  if (count > 0) {
+    const bool is_one = count == 1;
+    out = std::to_string(count) +
+          (is_one ? " file of another kind was" : " files of other kinds were") +
+          " left out: " + kinds;
+  }
+  if (closed_folders.empty()) return out;
+  const bool is_one = closed_folders.size() == 1;
+  return out + (out.empty() ? "" : "; ") + std::to_string(closed_folders.size()) +
+         (is_one ? " folder without permission was left out: "
+                 : " folders without permission were left out, the first is ") +
+         *closed_folders.begin();
 }
 
 Result<SourceListing> list_sources(const fs::path& library,
@@ -218,7 +240,13 @@ Result<SourceListing> list_sources(const fs::path& library,
       return at_source("is a part of the library that its build writes",
                        "name the files that these motions were made from");
     }
-    if (SourceLister(library, source, i, known, out).list(root) == 0) {
+    if (is_closed_folder(root)) {
+      return at_source("is a folder without permission",
+                       "give yourself the right to read it, or remove the source");
+    }
+    const auto count = SourceLister(library, source, i, known, out).list(root);
+    if (!count) return count.error();
+    if (*count == 0) {
       return at_source("has no file that a library reads",
                        "give files of the kinds " + source_kinds());
     }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,8 +30,11 @@ struct SourceListing {
   /// Number of files that no library reads, by extension with its point. Files that
   /// belong to a source (is_companion_file()) do not count.
   std::map<std::string, std::size_t> left_out;
+  /// Names of folders that could not be read without permission.
+  std::set<std::string> closed_folders;
 
-  /// Returns "12 files of other kinds were left out: 10 .txt, 2 .png"; empty: none.
+  /// Returns "12 files of other kinds were left out: 10 .txt, 2 .png; 2 folders without
+  /// permission were left out, the first is a/private"; empty: none.
   [[nodiscard]] std::string left_out_text() const;
 };
 
@@ -38,9 +42,10 @@ struct SourceListing {
 /// Folders are searched with their subfolders. A folder with a session.toml is one
 /// source, without the files in it, unless LibrarySource::kind names another kind. Left
 /// out are hidden files, those of LibrarySource::skip, files of other kinds, and the
-/// folders that a build writes (objects, search... next to a library.toml). Errors
-/// (kBadInput), with the line: a source that does not exist, is a part of the library
-/// that a build writes, or has no file that is read.
+/// folders that a build writes (objects, search... next to a library.toml), and folders
+/// below a source without permission. Errors (kBadInput), with the line: a source that
+/// does not exist, is a part of the library that a build writes, is without permission,
+/// or has no file that is read. (kDevice) A folder cannot be listed.
 [[nodiscard]] Result<SourceListing> list_sources(const std::filesystem::path& library,
                                                  const LibrarySettings& settings);
 

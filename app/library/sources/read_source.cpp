@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <set>
 #include <utility>
 
 #include "library/quality/rate_witnesses.h"
@@ -120,58 +121,77 @@ void remove_paths(const SourceFile& file, std::vector<std::string>& remarks) {
   }
 }
 
+/// Returns the statement that differs most from the rate in use, as a sentence; nullopt:
+/// none differs by the rule of choose_rate().
+std::optional<std::string> contradiction(const library::RateWitnesses& witnesses,
+                                         const library::StatedRate& used,
+                                         const std::string& table_evidence) {
+  if (used.figure.value <= 1.0) return std::nullopt;
+  const std::string place = table_evidence.empty() ? "" : " (" + table_evidence + ")";
+  struct Statement {
+    RateBasis basis = RateBasis::kFile;
+    std::string by;
+    std::optional<double> hz = std::nullopt;
+  };
+  const std::array<Statement, 3> statements = {{
+      {RateBasis::kOption, "library.toml", witnesses.option_hz},
+      {RateBasis::kTable, "the index table" + place, witnesses.table_hz},
+      {RateBasis::kFile, "the file", witnesses.file_hz},
+  }};
+  const auto off = [&](const Statement& one) {
+    return one.hz ? std::abs(std::log(*one.hz / used.hz)) : 0.0;
+  };
+  const auto& counts = *std::ranges::find(statements, used.basis, &Statement::basis);
+  const auto& differs = *std::ranges::max_element(statements, {}, off);
+  return counts.by + " states " + hz_text(used.hz) + ", but " + differs.by + " states " +
+         hz_text(*differs.hz);
+}
+
 /// Sets the rate that counts, and adds a remark and a figure on rates that differ.
 void set_rate(const LibrarySource& source,
               const ReadSourceOptions& options,
               SourceMotion& out) {
-  out.rates.option_hz = source.rate_hz;
   library::RateWitnesses witnesses;
   if (!out.rates.file_is_guessed) witnesses.file_hz = out.rates.file_hz;
   witnesses.table_hz = options.table_rate_hz;
   witnesses.option_hz = source.rate_hz;
   witnesses.table_duration_s = options.table_duration_s;
   witnesses.frames = static_cast<int>(out.motion.poses.size());
-  if (!library::is_resampled_copy(witnesses)) {
-    out.rates.table_hz = options.table_rate_hz;
-    out.rates.table_evidence = options.table_evidence;
-  }
-  out.motion.rate.hz = out.rates.used_hz();
+  if (library::is_resampled_copy(witnesses)) witnesses.table_hz.reset();
+  const auto chosen = library::choose_rate(witnesses);
+  library::StatedRate& used = out.rates.used;
+  used.hz = out.rates.file_hz;
+  if (chosen) used = *chosen;
+  out.motion.rate.hz = used.hz;
   // Times in the source count by its own rate.
-  const double longer = out.rates.file_hz / out.rates.used_hz();
+  const double longer = out.rates.file_hz / used.hz;
   for (ClipLabel& label : out.labels) {
     label.start_s *= longer;
     label.end_s *= longer;
   }
-  if (const auto differs = out.rates.contradiction()) out.remarks.push_back(*differs);
-  const auto chosen = library::choose_rate(witnesses);
   if (!chosen) return;
-  out.figures.push_back({std::string(chosen->figure.name),
-                         chosen->figure.value,
-                         std::nullopt,
-                         "",
-                         std::nullopt});
+  if (const auto differs = contradiction(witnesses, used, options.table_evidence)) {
+    out.remarks.push_back(*differs);
+  }
+  out.figures.push_back(
+      {std::string(used.figure.name), used.figure.value, std::nullopt, "", std::nullopt});
 }
 
 }  // namespace
 
-std::optional<std::string> SourceRates::contradiction() const {
-  constexpr double kSame = 0.005;
-  const auto differ = [](double a, double b) {
-    return std::abs(a - b) > kSame * std::max(a, b);
-  };
-  std::vector<std::pair<std::string, double>> stated;
-  if (option_hz) stated.emplace_back("library.toml", *option_hz);
-  if (table_hz) {
-    const std::string place = table_evidence.empty() ? "" : " (" + table_evidence + ")";
-    stated.emplace_back("the index table" + place, *table_hz);
+void number_equal_bodies(std::vector<SourceMotion>& all) {
+  std::set<std::string> names;
+  for (const SourceMotion& motion : all) names.insert(motion.body);
+  std::set<std::string> used;
+  for (SourceMotion& motion : all) {
+    if (used.insert(motion.body).second) continue;
+    const std::string name = motion.body.empty() ? "body" : motion.body;
+    for (std::size_t k = 2; names.contains(motion.body); ++k) {
+      motion.body = name + " (" + std::to_string(k) + ")";
+    }
+    names.insert(motion.body);
+    used.insert(motion.body);
   }
-  if (!file_is_guessed) stated.emplace_back("the file", file_hz);
-  for (std::size_t i = 1; i < stated.size(); ++i) {
-    if (!differ(stated[0].second, stated[i].second)) continue;
-    return stated[0].first + " states " + hz_text(stated[0].second) + ", but " +
-           stated[i].first + " states " + hz_text(stated[i].second);
-  }
-  return std::nullopt;
 }
 
 Result<std::vector<SourceMotion>> read_source(const SourceFile& file,
@@ -187,6 +207,7 @@ Result<std::vector<SourceMotion>> read_source(const SourceFile& file,
   }
   auto all = read_by_kind(file, stated_hz, options.scratch);
   if (!all) return all;
+  number_equal_bodies(*all);
   for (SourceMotion& motion : *all) {
     set_rate(source, options, motion);
     const Status ok = clean_motion(options.clean, is_solved(file), motion);

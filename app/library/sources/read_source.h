@@ -23,13 +23,17 @@ struct ReadSourceOptions {
   std::filesystem::path scratch;
 };
 
-/// Reads all motions of a source, each on its own body: motion files as read_motion();
-/// markers by the steps of `marey repair` and `marey fit`; sessions and takes by those of
-/// `marey process`; recipes rendered. The source and its folder are not changed. The
-/// result depends on the source's files and the options alone, not on the number of
-/// threads. Runs in a forked child process.
-/// Errors, with the file: those of the readers and solvers; a rate that is not 0.1 to
-/// 2000 Hz; a cleaning that this kind of source does not support.
+/// Numbers equal names of bodies, so that each motion of a source has its own: "Bob" and
+/// "Bob (2)". The first one keeps its name.
+void number_equal_bodies(std::vector<SourceMotion>& all);
+
+/// Reads all motions of a source, each on its own body, whose names differ: motion files
+/// as read_motion(); markers by the steps of `marey repair` and `marey fit`; sessions and
+/// takes by those of `marey process`; recipes rendered. The source and its folder are not
+/// changed. The result depends on the source's files and the options alone, not on the
+/// number of threads. Runs in a forked child process. Errors, with the file: those of the
+/// readers and solvers; a rate that is not 0.1 to 2000 Hz; a cleaning that this kind of
+/// source does not support.
 [[nodiscard]] Result<std::vector<SourceMotion>> read_source(
     const SourceFile& file,
     const LibrarySource& source,

@@ -39,6 +39,13 @@ std::string source_kind(const fs::path& path) {
   return is_read ? kind : "";
 }
 
+std::string source_stem(const std::string& name, const std::string& kind) {
+  const fs::path file = fs::path(name).filename();
+  if (kind == kSessionKind) return file.string();
+  if (kind == kRecipeKind) return file.stem().stem().string();
+  return file.stem().string();
+}
+
 bool is_companion_file(const fs::path& path) {
   const std::string file = path.filename().string();
   const std::string extension = kind_by_extension(path);

@@ -23,6 +23,11 @@ inline constexpr const char* kMarkerMapFile = "markers.toml";
 /// sessions if they contain kSessionFile. Does not read the file.
 [[nodiscard]] std::string source_kind(const std::filesystem::path& path);
 
+/// Returns the name of a source without folders and without the ending of its kind:
+/// "walk" for "a/walk.bvh" and for the recipe "a/walk.edit.toml". The folder of a session
+/// has no ending: "take.2" stays.
+[[nodiscard]] std::string source_stem(const std::string& name, const std::string& kind);
+
 /// Returns true for files that belong to a source next to them: skeletons of AMC, buffers
 /// of glTF, bone maps, subjects, meanings of labels.
 [[nodiscard]] bool is_companion_file(const std::filesystem::path& path);

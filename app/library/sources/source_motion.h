@@ -2,39 +2,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
+
+#include "library/quality/rate_witnesses.h"
 
 #include "core/library/clip_record.h"
 #include "core/motion.h"
 
 namespace marey::app {
 
-/// Rates of a source, from all places that state one. [Hz]
+/// Rates of a motion. [Hz]
 struct SourceRates {
-  double file_hz = 0.0;
-  bool file_is_guessed = false;     ///< The file states none; file_hz is a default.
-  std::optional<double> table_hz;   ///< Rate in the index table.
-  std::string table_evidence;       ///< IndexEntry::evidence.
-  std::optional<double> option_hz;  ///< LibrarySource::rate_hz.
+  double file_hz = 0.0;          ///< By the file.
+  bool file_is_guessed = false;  ///< The file states none; file_hz is a default.
+  /// The rate that counts, by library::choose_rate(); file_hz if nothing states one.
+  library::StatedRate used;
 
-  /// Returns the rate that counts: the option's, else the table's, else the file's.
-  [[nodiscard]] double used_hz() const {
-    return option_hz.value_or(table_hz.value_or(file_hz));
-  }
-  [[nodiscard]] RateBasis basis() const {
-    if (option_hz) return RateBasis::kOption;
-    return table_hz ? RateBasis::kTable : RateBasis::kFile;
-  }
-  /// Returns the contradiction between stated rates, as a sentence; nullopt: they agree
-  /// within 0.5 %. A guessed rate contradicts nothing.
-  [[nodiscard]] std::optional<std::string> contradiction() const;
+  [[nodiscard]] RateBasis basis() const { return used.basis; }
 };
 
 /// One motion of a source.
 struct SourceMotion {
-  /// In marey's frame: Y up, metres, bones marked (read_body()), at SourceRates::used_hz.
+  /// In marey's frame: Y up, metres, bones marked (read_body()), at SourceRates::used.
   /// The height above the floor is the source's.
   Motion motion;
   /// Uncertainty, [frame][joint]; empty: unknown.

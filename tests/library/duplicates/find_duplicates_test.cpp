@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "library/clips/normal_form.h"
@@ -41,13 +42,12 @@ Rows features_of_motion(const Motion& motion) {
 }
 
 // Every joint swings about its own axis, at its own rate.
-Motion clip_motion(int k) {
+Motion clip_motion(int k, std::size_t frames) {
   testing::Dice dice(static_cast<std::uint64_t>(k) + 100);
   Motion motion;
   motion.skeleton = make_humanoid(average_proportions(1.75));
   motion.rate.hz = 30.0;
-  motion.poses.assign(static_cast<std::size_t>(90 + 7 * (k % 9)),
-                      rest_pose(motion.skeleton));
+  motion.poses.assign(frames, rest_pose(motion.skeleton));
   for (std::size_t j = 0; j < motion.skeleton.joints.size(); ++j) {
     const glm::dvec3 axis = glm::normalize(glm::dvec3(
         dice.between(-1.0, 1.0), dice.between(-1.0, 1.0), dice.between(-1.0, 1.0)));
@@ -60,6 +60,10 @@ Motion clip_motion(int k) {
     }
   }
   return motion;
+}
+
+Motion clip_motion(int k) {
+  return clip_motion(k, static_cast<std::size_t>(90 + 7 * (k % 9)));
 }
 
 // Motions of one body, none like another.
@@ -197,6 +201,70 @@ TEST(FindDuplicates, ChoosesTheFirstOfManyCopies) {
   const auto found = find_duplicates(table.rows());
   ASSERT_EQ(found.size(), 4U);
   for (const DuplicateClip& one : found) EXPECT_EQ(one.original, 1);
+}
+
+// "Nearly as long" is not transitive: 95 and 107 rows differ by more than a tenth, but
+// both are nearly as long as 100.
+TEST(FindDuplicates, KeepsOneOfThreeCutsOfRisingLengths) {
+  const Motion whole = clip_motion(1, 330);
+  FeatureTable table;
+  for (const int rows : {95, 100, 107}) {
+    table.add(features_of_motion(part_of_motion(whole, 0, 3 * (rows - 1))));
+    ASSERT_EQ(
+        table.values.size() / kFeatureStride - table.begins[table.begins.size() - 2],
+        static_cast<std::size_t>(rows));
+  }
+  const auto found = find_duplicates(table.rows());
+  ASSERT_EQ(found.size(), 2U);
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_EQ(found[static_cast<std::size_t>(k)].clip, k);
+    EXPECT_EQ(found[static_cast<std::size_t>(k)].original, 2);
+  }
+}
+
+TEST(FindDuplicates, KeepsExactlyOneClipOfEachFamilyOfCuts) {
+  constexpr int kFamilies = 3;
+  constexpr int kCuts = 6;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    testing::Dice dice(seed);
+    const auto below = [&](int count) {
+      return static_cast<int>(dice.between(0.0, count - 0.001));
+    };
+    std::vector<std::pair<int, Rows>> clips;
+    for (int family = 0; family < kFamilies; ++family) {
+      const Motion whole = clip_motion(family, 360);
+      // Each cut is within the one before, so that all of them agree.
+      int first = below(10);
+      int last = 359 - below(10);
+      for (int cut = 0; cut < kCuts; ++cut) {
+        clips.emplace_back(family,
+                           features_of_motion(part_of_motion(whole, first, last)));
+        first += below(12);
+        last -= below(20);
+      }
+    }
+    for (std::size_t k = clips.size() - 1; k > 0; --k) {
+      std::swap(clips[k],
+                clips[static_cast<std::size_t>(below(static_cast<int>(k) + 1))]);
+    }
+    FeatureTable table;
+    for (const auto& clip : clips) table.add(clip.second);
+    std::vector<int> originals(clips.size(), -1);
+    for (const DuplicateClip& one : find_duplicates(table.rows())) {
+      originals[static_cast<std::size_t>(one.clip)] = one.original;
+    }
+    std::vector<int> kept(kFamilies, 0);
+    for (std::size_t k = 0; k < clips.size(); ++k) {
+      if (originals[k] < 0) {
+        ++kept[static_cast<std::size_t>(clips[k].first)];
+        continue;
+      }
+      const auto original = static_cast<std::size_t>(originals[k]);
+      EXPECT_LT(originals[original], 0) << "seed " << seed << ": clip " << k;
+      EXPECT_EQ(clips[original].first, clips[k].first) << "seed " << seed;
+    }
+    EXPECT_EQ(kept, std::vector<int>(kFamilies, 1)) << "seed " << seed;
+  }
 }
 
 // A repetition has the same postures, but at times that differ by more than 0.1 s.

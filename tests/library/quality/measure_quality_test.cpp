@@ -237,11 +237,19 @@ TEST(MeasureQuality, AnglesAreThoseOfABodyOfAnySize) {
   EXPECT_EQ(b.quality, Verdict::kPass);
 }
 
+TEST(MeasureQuality, LimitsOfZeroAreLimits) {
+  const std::vector<QualityLimit> own{{"swap_frames", 0.0, 0.0}};
+  const QualityLimits limits(own);
+  EXPECT_EQ(limits.verdict("swap_frames", 1.0), Verdict::kFail);
+  EXPECT_EQ(limits.verdict("swap_frames", 0.0), Verdict::kPass);
+  EXPECT_FALSE(limits.verdict("seconds", 1.0)) << "only reported";
+}
+
 TEST(MeasureQuality, RulesHaveDistinctNamesAndOrderedLimits) {
   std::set<std::string_view> names;
   for (const FigureRule& rule : figure_rules()) {
     EXPECT_TRUE(names.insert(rule.figure).second) << rule.figure;
-    if (!rule.has_verdict()) continue;
+    if (!rule.is_judged) continue;
     EXPECT_LT(rule.warn, rule.fail) << rule.figure;
   }
 }

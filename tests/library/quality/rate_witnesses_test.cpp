@@ -30,6 +30,7 @@ TEST(RateWitnesses, ATableContradictsAFile) {
 TEST(RateWitnesses, AResampledCopyHasTheDurationOfTheTable) {
   const auto copy = choose_rate({60.0, 120.0, std::nullopt, 171 / 60.0, 171});
   EXPECT_EQ(copy->hz, 60.0);
+  EXPECT_EQ(copy->basis, RateBasis::kFile);
   EXPECT_EQ(copy->figure.value, 1.0);
   const auto wrong = choose_rate({60.0, 120.0, std::nullopt, 171 / 60.0, 343});
   EXPECT_EQ(wrong->hz, 120.0);
@@ -39,20 +40,6 @@ TEST(RateWitnesses, AResampledCopyHasTheDurationOfTheTable) {
 TEST(RateWitnesses, ASecondWitnessConfirmsTheOption) {
   EXPECT_NEAR(choose_rate({120.0, std::nullopt, 60.0})->figure.value, 2.0, 1e-12);
   EXPECT_EQ(choose_rate({120.0, 60.0, 60.0})->figure.value, 1.0);
-}
-
-TEST(RateWitnesses, TrustFollowsFromTheFigures) {
-  std::vector<ClipFigure> figures{{"flights", 1.0, std::nullopt, "", std::nullopt},
-                                  {"rate_ratio", 0.0, Verdict::kPass, "", std::nullopt}};
-  EXPECT_EQ(rate_trust({}), RateTrust::kStated);
-  EXPECT_EQ(rate_trust(figures), RateTrust::kStated);
-  figures[0].value = 2.0;
-  EXPECT_EQ(rate_trust(figures), RateTrust::kProven);
-  figures[1].verdict = Verdict::kFail;
-  EXPECT_EQ(rate_trust(figures), RateTrust::kImplausible);
-  figures.push_back({"rate_stated_ratio", 2.0, Verdict::kFail, "", std::nullopt});
-  EXPECT_EQ(rate_trust(figures), RateTrust::kContradicted);
-  EXPECT_EQ(name(rate_trust(figures)), "contradicted");
 }
 
 }  // namespace

@@ -49,8 +49,7 @@ std::vector<ClipRecord> checked_clips(int count) {
     for (const library::FigureRule& rule : limits.rules()) {
       ClipFigure figure;
       figure.name = rule.figure;
-      figure.value =
-          (rule.has_verdict() ? 0.5 * rule.warn : 1.0) * std::pow(dice.next(), 3);
+      figure.value = (rule.is_judged ? 0.5 * rule.warn : 1.0) * std::pow(dice.next(), 3);
       if (is_bad && figure.name == kBadFigures[bad]) {
         figure.value = rule.warn * (1.01 + 2.0 * dice.next());
         const int first = static_cast<int>((clip.last_frame - 10) * dice.next());

@@ -88,7 +88,7 @@ TEST(LibraryCheck, CountsVerdictsFiguresAndProblems) {
   EXPECT_EQ(slide.max, 40.0);
   EXPECT_EQ(slide.worst_clip, 2u);
   EXPECT_EQ(check.figures[2].figure, "speed_m_s");
-  EXPECT_FALSE(check.figures[2].has_limits());
+  EXPECT_FALSE(check.figures[2].is_judged);
   ASSERT_EQ(check.kinds.size(), 2u);
   EXPECT_EQ(check.kinds[0].kind, "slide");
   EXPECT_EQ(check.kinds[0].clips, 2);
@@ -96,6 +96,26 @@ TEST(LibraryCheck, CountsVerdictsFiguresAndProblems) {
   EXPECT_NEAR(check.kinds[0].seconds, 3.0, 1e-9);
   // Two figures that fail are worse than a large value of one.
   EXPECT_EQ(check.worst_first, (std::vector<std::size_t>{3, 2, 1, 0}));
+}
+
+TEST(LibraryCheck, LimitsOfZeroAreLimits) {
+  const std::vector<QualityLimit> own{{"swap_frames", 0.0, 0.0}};
+  ClipRecord clip;
+  clip.rate_hz = 30.0;
+  clip.figures.push_back({"swap_frames", 3.0, Verdict::kFail, "", std::nullopt});
+  const LibraryCheck check = check_library({clip}, library::QualityLimits(own), {});
+  ASSERT_EQ(check.figures.size(), 1u);
+  EXPECT_TRUE(check.figures[0].is_judged);
+  EXPECT_EQ(check.figures[0].verdicts[2], 1);
+}
+
+TEST(LibraryCheck, KnowsTheUnitsOfProblems) {
+  EXPECT_EQ(unit_of_kind("jitter"), " mm");
+  EXPECT_EQ(unit_of_kind("tilt"), " deg");
+  EXPECT_EQ(unit_of_kind("frozen"), " s");
+  EXPECT_EQ(unit_of_kind("spike"), "");
+  EXPECT_EQ(unit_of_kind("slide"), "") << "cm/s and mm";
+  EXPECT_EQ(unit_of_kind("fit"), "") << "no figure of the gate";
 }
 
 TEST(LibraryCheck, PrintsTheWorstWithTimesAndReasons) {

@@ -134,9 +134,11 @@ TEST_F(SimilarSearch, HasTimesSinceTheFirstFrameOfTheClip) {
 TEST_F(SimilarSearch, FindsTheMotionOfAFile) {
   const fs::path file = library_ / "walk@home.bvh";
   ASSERT_TRUE(recordings::write_bvh(file, testing::synthetic_walk(241, 30.0).motion));
-  const auto rows = features_of_file(file);
-  ASSERT_TRUE(rows) << rows.error().message();
-  clips_[8].rows = *rows;
+  const auto search = open_search(library_.path());
+  ASSERT_TRUE(search) << search.error().message();
+  const auto query = read_similar_query(library_.path(), file.string(), *search);
+  ASSERT_TRUE(query) << query.error().message();
+  clips_[8].rows = query->rows;
   write();
   const auto found = find(file.string());
   EXPECT_EQ(found.clips[0].clip.number, 8);

@@ -8,13 +8,17 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include "app/library/sources/source_kind.h"
 #include "recordings/base/atomic_file.h"
 #include "tests/support/program/scratch_folder.h"
 
 namespace marey::app {
 namespace {
 
+namespace fs = std::filesystem;
 using Words = std::vector<std::pair<std::string, std::string>>;
 
 LibrarySettings settings_of(std::vector<std::string> paths) {
@@ -98,6 +102,56 @@ TEST(ListSources, CountsFilesOfOtherKinds) {
   EXPECT_EQ(files->left_out_text(),
             "4 files of other kinds were left out: 1 without extension, 1 .png, 2 .txt");
   EXPECT_EQ(SourceListing{}.left_out_text(), "");
+}
+
+TEST(ListSources, StatesFoldersWithoutPermission) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root reads all folders";
+  const testing::ScratchFolder folder;
+  for (const char* name : {"a/x.bvh", "a/c/y.bvh", "a/b/z.bvh"}) {
+    ASSERT_TRUE(recordings::write_file(folder / name, "x"));
+  }
+  fs::permissions(folder / "a/b", fs::perms::none);
+  const auto one = list_sources(folder.path(), settings_of({"a"}));
+  const auto none = list_sources(folder.path(), settings_of({"a/b"}));
+  fs::permissions(folder / "a/c", fs::perms::none);
+  const auto two = list_sources(folder.path(), settings_of({"a"}));
+  fs::permissions(folder / "a/b", fs::perms::owner_all);
+  fs::permissions(folder / "a/c", fs::perms::owner_all);
+  ASSERT_TRUE(one) << one.error().message();
+  EXPECT_EQ(names_of(one->files), (std::vector<std::string>{"a/c/y.bvh", "a/x.bvh"}));
+  EXPECT_EQ(one->left_out_text(), "1 folder without permission was left out: a/b");
+  ASSERT_TRUE(two) << two.error().message();
+  EXPECT_EQ(two->left_out_text(),
+            "2 folders without permission were left out, the first is a/b");
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().cause.find("without permission"), std::string::npos);
+}
+
+// Too few file descriptors: the second folder cannot be opened.
+TEST(ListSources, RefusesAFolderThatCannotBeListed) {
+  const testing::ScratchFolder folder;
+  ASSERT_TRUE(recordings::write_file(folder / "a/b/x.bvh", "x"));
+  const int next = ::dup(0);
+  ASSERT_GE(next, 0);
+  ::close(next);
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  rlimit few = before;
+  few.rlim_cur = static_cast<rlim_t>(next) + 1;
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &few), 0);
+  const auto files = list_sources(folder.path(), settings_of({"a"}));
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+  ASSERT_FALSE(files);
+  EXPECT_EQ(files.error().code, Errc::kDevice);
+  EXPECT_EQ(files.error().where, (folder / "a/b").string());
+  EXPECT_NE(files.error().cause.find("cannot be listed"), std::string::npos);
+}
+
+TEST(ListSources, NamesSourcesWithoutTheirEndings) {
+  EXPECT_EQ(source_stem("a/walk.bvh", "bvh"), "walk");
+  EXPECT_EQ(source_stem("a/walk.2.bvh", "bvh"), "walk.2");
+  EXPECT_EQ(source_stem("a/walk.edit.toml", kRecipeKind), "walk");
+  EXPECT_EQ(source_stem("a.b/take.2", kSessionKind), "take.2");
 }
 
 TEST(ListSources, TakesASessionAsOneSource) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "library/clips/normal_form.h"
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/pose.h"
 #include "recordings/base/atomic_file.h"
@@ -137,10 +140,15 @@ TEST(ReadSource, KeepsTheRatesOfAllPlaces) {
   options.table_rate_hz = 60.0;
   const auto by_option = motions_of(folder / "a.npz", options, source);
   EXPECT_EQ(by_option.at(0).motion.rate.hz, 60.1);
-  EXPECT_EQ(by_option[0].rates.table_hz, 60.0);
   EXPECT_EQ(by_option[0].rates.file_hz, 60.0);
   EXPECT_EQ(by_option[0].rates.basis(), RateBasis::kOption);
   EXPECT_EQ(stated_ratio(by_option[0]), 1.0) << "they agree within 1 %";
+  source.rate_hz = 60.5;
+  options.table_rate_hz = std::nullopt;
+  const auto rounded = motions_of(folder / "a.npz", options, source);
+  EXPECT_EQ(rounded.at(0).motion.rate.hz, 60.5);
+  EXPECT_FALSE(has_remark(rounded[0], "states")) << "a difference of 0.8 %";
+  source.rate_hz = 60.1;
   // The table describes a recording of another rate, and this file is a copy of it.
   options.table_rate_hz = 30.0;
   options.table_duration_s = 90 / 60.0;
@@ -152,16 +160,49 @@ TEST(ReadSource, KeepsTheRatesOfAllPlaces) {
   EXPECT_NE(refusal_of(folder / "a.npz", {}, source).find("a.npz"), std::string::npos);
 }
 
-TEST(ReadSource, GuessedRatesContradictNothing) {
-  SourceRates rates;
-  rates.file_hz = 120.0;
-  rates.table_hz = 60.0;
-  EXPECT_TRUE(rates.contradiction());
-  rates.file_is_guessed = true;
-  EXPECT_FALSE(rates.contradiction());
-  rates.option_hz = 30.0;
-  EXPECT_TRUE(rates.contradiction()) << "option and table differ";
-  EXPECT_EQ(rates.used_hz(), 30.0);
+TEST(ReadSource, NumbersEqualNamesOfBodies) {
+  std::vector<SourceMotion> all(6);
+  for (std::size_t i = 0; i < 4; ++i) all[i].body = i == 2 ? "Bob (2)" : "Bob";
+  number_equal_bodies(all);
+  std::vector<std::string> names;
+  for (const SourceMotion& motion : all) names.push_back(motion.body);
+  EXPECT_EQ(
+      names,
+      (std::vector<std::string>{"Bob", "Bob (3)", "Bob (2)", "Bob (4)", "", "body (2)"}));
+}
+
+/// Repeats the animation of a GLB under two names.
+void name_two_animations(const fs::path& path,
+                         const std::string& first,
+                         const std::string& second) {
+  auto bytes = recordings::read_file(path);
+  ASSERT_TRUE(bytes) << bytes.error().message();
+  constexpr std::size_t kHead = 20;  // Of the file, 12; of the chunk of JSON, 8.
+  std::uint32_t size = 0;
+  std::memcpy(&size, bytes->data() + 12, 4);
+  auto json = nlohmann::json::parse(bytes->substr(kHead, size));
+  json["animations"].push_back(json["animations"][0]);
+  json["animations"][0]["name"] = first;
+  json["animations"][1]["name"] = second;
+  std::string text = json.dump();
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  *bytes = bytes->substr(0, kHead) + text + bytes->substr(kHead + size);
+  const auto length = static_cast<std::uint32_t>(bytes->size());
+  size = static_cast<std::uint32_t>(text.size());
+  std::memcpy(bytes->data() + 8, &length, 4);
+  std::memcpy(bytes->data() + 12, &size, 4);
+  ASSERT_TRUE(recordings::write_file(path, *bytes));
+}
+
+TEST(ReadSource, NamesOfAnimationsDiffer) {
+  const testing::ScratchFolder folder;
+  ASSERT_TRUE(write_walk(folder / "a.vrma", MotionFormat::kVrma));
+  // An animation without a name has its number, here the name of the other one.
+  name_two_animations(folder / "a.vrma", "animation 1", "");
+  const auto all = motions_of(folder / "a.vrma");
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].body, "animation 1");
+  EXPECT_EQ(all[1].body, "animation 1 (2)");
 }
 
 TEST(ReadSource, PutsFeetOnTheFloor) {
