@@ -12,6 +12,7 @@
 
 #include "library/features/feature_span.h"
 
+#include "app/library/sources/source_kind.h"
 #include "core/base/format_text.h"
 #include "core/base/in_quotes.h"
 #include "recordings/base/atomic_file.h"
@@ -36,7 +37,7 @@ std::string clip_name(const SourceFile& file,
                       const ClipRecord& record,
                       std::size_t number,
                       std::size_t count) {
-  std::string out = fs::path(file.name).stem().string();
+  std::string out = source_stem(file.name, file.kind);
   if (!record.body.empty()) out += "#" + record.body;
   if (count > 1) out += format_text(".%03zu", number + 1);
   return out;
