@@ -22,8 +22,6 @@ struct FigureRule {
   bool is_outside = false;
   /// False: the figure is only reported, without limits. Limits may be 0.
   bool is_judged = true;
-
-  [[nodiscard]] bool has_verdict() const { return is_judged; }
 };
 
 /// Returns all figures of the gate with their default limits. docs/accuracy/

@@ -69,7 +69,7 @@ Status read_tables(BuildInputs& out, std::string& digests) {
 Status check_limits(const std::vector<QualityLimit>& limits, const std::string& file) {
   std::vector<std::string_view> known;
   for (const library::FigureRule& rule : library::figure_rules()) {
-    if (rule.has_verdict()) known.push_back(rule.figure);
+    if (rule.is_judged) known.push_back(rule.figure);
   }
   for (const QualityLimit& limit : limits) {
     if (std::ranges::find(known, limit.figure) != known.end()) continue;

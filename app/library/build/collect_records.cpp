@@ -3,7 +3,6 @@
 #include "app/library/build/collect_records.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <set>
 #include <system_error>
@@ -22,7 +21,6 @@
 namespace marey::app {
 namespace {
 
-namespace fs = std::filesystem;
 using recordings::object_path;
 
 std::optional<std::vector<ClipRecord>> read_clips(const BuildInputs& inputs,

@@ -77,7 +77,7 @@ ClipJson figure_json(const ClipFigure& figure, const library::QualityLimits& lim
   for (const library::FigureRule& rule : limits.rules()) {
     if (rule.figure != figure.name) continue;
     out["kind"] = rule.kind;
-    if (!rule.has_verdict()) continue;
+    if (!rule.is_judged) continue;
     out["warn"] = rule.warn;
     out["fail"] = rule.fail;
   }
