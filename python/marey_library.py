@@ -32,7 +32,7 @@ from typing import Any, Iterator, Sequence
 import numpy as np
 
 INDEX_APPLICATION = 0x4D4C4942  # "MLIB"
-INDEX_VERSION = 4
+INDEX_VERSION = 5
 MOTION_LAYOUT = 2
 ROWS_LAYOUT = 1
 FEATURES = 57  # Values per instant; files have 7 zeros after them.

@@ -8,6 +8,15 @@
 #include "library/quality/quality_frames.h"
 
 namespace marey::library {
+namespace {
+
+bool is_measured(const LibraryMotion& clip, JointIndex joint) {
+  return std::ranges::any_of(clip.uncertainty, [&](const auto& frame) {
+    return frame[index(joint)].source != Source::kInferred;
+  });
+}
+
+}  // namespace
 
 std::array<FoundFigure, 3> measure_certainty(const LibraryMotion& clip,
                                              const retarget::BodyMap& map,
@@ -23,7 +32,8 @@ std::array<FoundFigure, 3> measure_certainty(const LibraryMotion& clip,
   for (const HumanLimb& limb : human_limbs()) {
     for (const HumanBone bone : {limb.upper, limb.lower, limb.end}) {
       const auto joint = map.joint_of[marey::index(bone)];
-      if (!joint) continue;
+      // A joint without markers, such as the arms of a gait lab, has no gaps.
+      if (!joint || !is_measured(clip, *joint)) continue;
       int first = 0;
       for (int t = 0; t <= count; ++t) {
         const JointUncertainty* now =

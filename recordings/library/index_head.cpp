@@ -13,7 +13,7 @@ Result<IndexHead> read_index_head(const std::filesystem::path& path) {
   if (!database) return database.error();
   Statement head(database->get(),
                  "SELECT version, version_name, search, inputs, clips, warned, failed, "
-                 "duplicates, seconds, remarks FROM head");
+                 "duplicates, seconds, remarks, settings FROM head");
   if (!head.next_row()) return bad_index(path, "it has no head");
   IndexHead out;
   out.version = static_cast<int>(head.integer(0));
@@ -26,7 +26,16 @@ Result<IndexHead> read_index_head(const std::filesystem::path& path) {
   out.duplicates = head.integer(7);
   out.seconds = head.number(8);
   out.remarks = head.text(9);
+  out.settings = head.text(10);
   return out;
+}
+
+Status check_library_index(const std::filesystem::path& path) {
+  const auto database = open_index(path);
+  if (!database) return database.error();
+  Statement check(database->get(), "PRAGMA quick_check(1)");
+  if (check.next_row() && check.text(0) == "ok") return Done{};
+  return bad_index(path, "it is damaged");
 }
 
 Result<std::filesystem::path> search_file(const std::filesystem::path& index,

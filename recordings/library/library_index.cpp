@@ -27,7 +27,7 @@ CREATE TABLE head(
   version INTEGER NOT NULL, version_name TEXT NOT NULL, search TEXT NOT NULL,
   inputs TEXT NOT NULL, clips INTEGER NOT NULL, warned INTEGER NOT NULL,
   failed INTEGER NOT NULL, duplicates INTEGER NOT NULL, seconds REAL NOT NULL,
-  remarks TEXT NOT NULL
+  remarks TEXT NOT NULL, settings TEXT NOT NULL
 ) STRICT;
 CREATE TABLE source(
   id INTEGER PRIMARY KEY, sha256 TEXT NOT NULL, path TEXT NOT NULL, kind TEXT NOT NULL,
@@ -281,7 +281,7 @@ class PartialIndex {
 };
 
 bool add_head(sqlite3* database, const IndexHead& head) {
-  Statement row(database, "INSERT INTO head VALUES(?,?,?,?,?,?,?,?,?,?)");
+  Statement row(database, "INSERT INTO head VALUES(?,?,?,?,?,?,?,?,?,?,?)");
   row.bind(0, std::int64_t{head.version});
   row.bind(1, std::string_view(head.version_name));
   row.bind(2, std::string_view(head.search));
@@ -292,6 +292,7 @@ bool add_head(sqlite3* database, const IndexHead& head) {
   row.bind(7, head.duplicates);
   row.bind(8, head.seconds);
   row.bind(9, std::string_view(head.remarks));
+  row.bind(10, std::string_view(head.settings));
   return row.run();
 }
 

@@ -15,7 +15,7 @@ namespace marey::recordings {
 inline constexpr int kIndexApplication = 0x4d4c4942;
 
 /// Version of the tables of library.sqlite.
-inline constexpr int kLibraryIndexVersion = 4;
+inline constexpr int kLibraryIndexVersion = 5;
 
 /// Returns the error of an index that cannot be used (kBadInput). The next step is the
 /// command that makes it again.

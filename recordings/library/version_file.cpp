@@ -54,6 +54,7 @@ ClipChange change_of(const VersionLine* before, const VersionLine* after) {
   out.has_new_motion = before->object_key != after->object_key && !out.has_new_source;
   out.has_new_labels = before->labels != after->labels;
   out.has_new_licence = before->licence != after->licence;
+  out.has_new_name = before->name != after->name;
   out.has_new_state = before->state != after->state;
   return out;
 }

@@ -64,6 +64,7 @@ struct ClipChange {
   bool has_new_motion = false;  ///< The source was processed differently.
   bool has_new_labels = false;
   bool has_new_licence = false;
+  bool has_new_name = false;
   bool has_new_state = false;  ///< Split, duplicates, figures or other values.
 };
 

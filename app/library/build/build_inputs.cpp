@@ -11,11 +11,11 @@
 #include "library/quality/quality_limits.h"
 
 #include "app/library/labels/label_targets.h"
+#include "app/library/labels/settings_digest.h"
 #include "core/base/format_text.h"
 #include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
 #include "recordings/base/atomic_file.h"
-#include "recordings/base/sha256.h"
 #include "recordings/library/clip_record_file.h"
 #include "recordings/library/library_file.h"
 #include "recordings/library/library_paths.h"
@@ -33,15 +33,9 @@ constexpr int kClipsStage = 1;
 
 /// Reads the digest of the labels, and the labels if motions are divided by them.
 Status read_labels_of(BuildInputs& out) {
-  std::string digests;
-  const auto tables = label_tables(out.library);
-  if (!tables) return tables.error();
-  for (const fs::path& labels : *tables) {
-    const auto digest = recordings::sha256_of_file(labels);
-    if (!digest) return digest.error();
-    digests += labels.filename().string() + *digest;
-  }
-  out.labels_digest = recordings::sha256(digests);
+  auto digest = labels_digest_of(out.library);
+  if (!digest) return digest.error();
+  out.labels_digest = std::move(*digest);
   if (out.settings.segment != SegmentBy::kLabels) return Done{};
   auto labels = read_library_labels(out.library);
   if (!labels) return labels.error();
@@ -49,8 +43,8 @@ Status read_labels_of(BuildInputs& out) {
   return Done{};
 }
 
-/// Reads the index tables of all sources, and adds their digests.
-Status read_tables(BuildInputs& out, std::string& digests) {
+/// Reads the index tables of all sources.
+Status read_tables(BuildInputs& out) {
   for (const LibrarySource& source : out.settings.sources) {
     auto& table = out.tables.emplace_back();
     if (source.index.empty()) continue;
@@ -60,7 +54,6 @@ Status read_tables(BuildInputs& out, std::string& digests) {
     auto parsed = IndexTable::parse(*text, path.string());
     if (!parsed) return parsed.error();
     table = std::move(*parsed);
-    digests += recordings::sha256(*text);
   }
   return Done{};
 }
@@ -126,11 +119,11 @@ Result<BuildInputs> read_build_inputs(const fs::path& library) {
     return ok.error();
   }
   out.settings = std::move(*settings);
-  std::string digests = recordings::sha256(*text);
-  if (const Status ok = read_tables(out, digests); !ok) return ok.error();
+  if (const Status ok = read_tables(out); !ok) return ok.error();
   if (const Status ok = read_labels_of(out); !ok) return ok.error();
-  digests += out.labels_digest;
-  out.digest = recordings::sha256(digests);
+  auto digest = settings_digest(out.library, out.settings);
+  if (!digest) return digest.error();
+  out.digest = std::move(*digest);
   return out;
 }
 

@@ -215,6 +215,10 @@ Result<BuiltLibrary> build_library(BuildInputs inputs, int jobs, Console& consol
       import_sources(inputs, listing->files, jobs, CacheUse::kReplace, console);
   if (!outcomes) return stopped();
   auto built = finish_library(inputs, listing->files, std::move(*outcomes), console);
+  if (built) {
+    built->remarks.insert(
+        built->remarks.end(), listing->remarks.begin(), listing->remarks.end());
+  }
   const std::string left_out = listing->left_out_text();
   if (built && !left_out.empty()) built->remarks.push_back(left_out);
   return built;

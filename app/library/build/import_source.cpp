@@ -108,7 +108,8 @@ Status add_body(ObjectWriter& objects,
   if (!clip) return without_path(clip.error(), file);
   const auto map = retarget::map_body(clip->motion.skeleton);
   if (!map) return without_path(map.error(), file);
-  library::put_on_floor(clip->motion, *map);
+  constexpr double kMillimetres = 1000.0;
+  const double shift_m = library::put_on_floor(clip->motion, *map);
   ClipRecord body;
   body.body = source.body;
   body.object_key = recordings::stage_key("", "body", 1, source.body, motion_key);
@@ -118,6 +119,7 @@ Status add_body(ObjectWriter& objects,
   body.rate_by = source.rates.basis();
   body.provenance.subject = source.subject;
   body.figures = std::move(source.figures);
+  body.figures.push_back({"floor_shift_mm", kMillimetres * shift_m, {}, "", {}});
   body.problems = std::move(source.problems);
   body.labels = std::move(source.labels);
   body.events = std::move(source.events);

@@ -178,6 +178,10 @@ ClipRecord record_of(const BuildInputs& inputs,
   out.figures = std::move(quality.figures);
   out.problems = std::move(quality.problems);
   out.quality = quality.quality;
+  const int left_out = body.frame_count() - out.frame_count();
+  if (left_out > 0) {
+    out.figures.push_back({"left_out_frames", static_cast<double>(left_out), {}, "", {}});
+  }
   out.events = range.events;
   add_found_labels(part, map, out);
   add_source_values(body, poses, out);

@@ -133,10 +133,15 @@ Result<MergedLibrary> merge_library(const BuildInputs& inputs,
                                     const std::vector<SourceOutcome>& outcomes,
                                     std::vector<std::size_t>& damaged) {
   const LibraryPaths paths(inputs.library);
-  const auto old = recordings::read_index_head(paths.index());
+  auto old = recordings::read_index_head(paths.index());
+  if (old) {
+    const Status whole = recordings::check_library_index(paths.index());
+    if (!whole) old = whole.error();
+  }
   const IndexHead before = old ? *old : IndexHead{};
   IndexHead head;
   head.inputs = inputs_digest(inputs, sources, outcomes);
+  head.settings = inputs.digest;
   if (auto merged = find_merged(inputs, before, head.inputs)) return std::move(*merged);
   CollectedRecords clips = collect_records(inputs, sources, outcomes);
   head.search = search_folder_name(clips);
@@ -152,6 +157,11 @@ Result<MergedLibrary> merge_library(const BuildInputs& inputs,
   MergedLibrary out;
   out.head = head;
   std::error_code failed;
+  for (const SourceFile& source : sources) {
+    // Shards may have been worked on long ago.
+    if (fs::exists(source.path, failed)) continue;
+    out.remarks.push_back(source.name + ": the file is gone; its clips are from before");
+  }
   if (!old && fs::exists(paths.index(), failed)) {
     out.remarks.push_back(old.error().where + ": " + old.error().cause +
                           "; the index was made again");

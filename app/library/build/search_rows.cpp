@@ -50,10 +50,13 @@ Result<SearchWriters> create_writers(const fs::path& folder) {
 }
 
 bool has_rows(const fs::path& folder) {
-  // Sizes and headers are checked, not all values.
-  return RowsFile::open(folder / "features.f32", library::kFeatureStride) &&
-         RowsFile::open(folder / "windows.f32", library::kWindowFloats) &&
-         RowsFile::open(folder / "wholes.f32", library::kWholeFloats);
+  const auto is_whole = [&](const char* name, std::size_t columns) {
+    const auto file = RowsFile::open(folder / name, columns);
+    return file && file->check_values();
+  };
+  return is_whole("features.f32", library::kFeatureStride) &&
+         is_whole("windows.f32", library::kWindowFloats) &&
+         is_whole("wholes.f32", library::kWholeFloats);
 }
 
 }  // namespace
@@ -80,20 +83,25 @@ Status write_search_rows(const BuildInputs& inputs,
   auto writers = create_writers(folder);
   if (!writers) return writers.error();
   std::optional<RowsFile> object;
+  std::optional<Error> failure;
   std::string key;
   for (std::size_t i = 0; i < clips.records.size(); ++i) {
     const fs::path path =
         inputs.library / recordings::object_path(clips.feature_keys[i], ".f32");
     if (clips.feature_keys[i] != key) {
       key = clips.feature_keys[i];
+      object.reset();
       auto opened = RowsFile::open(path, library::kFeatureStride);
       const Status ok = opened ? opened->check_values() : Status(opened.error());
-      if (!ok) {
+      if (ok) {
+        object.emplace(std::move(*opened));
+      } else {
         damaged.push_back(i);
-        return ok;
+        failure = ok.error();
       }
-      object.emplace(std::move(*opened));
     }
+    // All damaged objects are found, so that one import makes all of them again.
+    if (!object) continue;
     const ClipRecord& record = clips.records[i];
     const auto count = static_cast<std::size_t>(
         library::feature_span(record.first_frame, record.last_frame, record.rate_hz)
@@ -103,12 +111,15 @@ Status write_search_rows(const BuildInputs& inputs,
     const std::size_t floats = count * library::kFeatureStride;
     if (first + floats > values.size()) {
       damaged.push_back(i);
-      return bad_input(path.string(),
-                       "the features of the clip are incomplete",
-                       "delete the file, and build the library again");
+      object.reset();
+      failure = bad_input(path.string(),
+                          "the features of the clip are incomplete",
+                          "delete the file, and build the library again");
+      continue;
     }
     writers->add_clip(values.subspan(first, floats));
   }
+  if (failure) return *failure;
   if (const Status ok = writers->features.commit(); !ok) return ok;
   if (const Status ok = writers->windows.commit(); !ok) return ok;
   return writers->wholes.commit();

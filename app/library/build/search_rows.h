@@ -14,13 +14,13 @@ namespace marey::app {
 /// that depend on the clips, their order and their features.
 [[nodiscard]] std::string search_folder_name(const CollectedRecords& clips);
 
-/// Returns true if the rows in search/NAME exist and are whole, by their sizes.
+/// Returns true if the rows in search/NAME exist and are whole, by their checksums.
 [[nodiscard]] bool has_search_rows(const BuildInputs& inputs, const std::string& name);
 
 /// Writes the rows for searches of all clips into search/NAME, unless they exist: their
 /// features, windows and whole clips. Reads one object of features at a time.
-/// Errors: (kBadInput) an object of features is damaged; its source is added to `damaged`
-/// as the index of its first record; (kDevice) the disk.
+/// Errors: (kBadInput) objects of features are damaged; `damaged` gets the index of a
+/// record of each; (kDevice) the disk.
 [[nodiscard]] Status write_search_rows(const BuildInputs& inputs,
                                        const CollectedRecords& clips,
                                        const std::string& name,

@@ -89,7 +89,8 @@ std::string what_changed(const ClipChange& change) {
       "quality " + change.quality_before + " -> " + change.quality_after);
   add(change.has_new_labels, "labels");
   add(change.has_new_licence, "licence");
-  if (out.empty()) out = "figures, split or duplicates";
+  add(change.has_new_name, "name");
+  if (out.empty()) out = "subject, origin, figures, split or duplicates";
   return out;
 }
 

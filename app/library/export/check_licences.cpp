@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/library/export/check_licences.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -18,6 +19,15 @@ std::string number_of_clips(std::size_t count) {
 void append_item(std::string& list, const std::string& text) {
   if (!list.empty()) list += ", ";
   list += text;
+}
+
+/// Returns true if a build left out frames of the source, or changed its motion.
+bool is_changed_by_build(const ClipRecord& record) {
+  return std::ranges::any_of(record.figures, [](const ClipFigure& figure) {
+    const bool is_change =
+        figure.name == "left_out_frames" || figure.name == "cleaned_samples";
+    return is_change && figure.value > 0.0;
+  });
 }
 
 /// Returns the licences of a refused group that the user would have to permit by name.
@@ -40,7 +50,8 @@ std::vector<LicenceGroup> decide_licences(std::span<const ClipRecord* const> cli
   for (std::size_t i = 0; i < clips.size(); ++i) {
     const std::string& stated = clips[i]->provenance.licence;
     const std::string expression = stated.empty() ? "unknown" : stated;
-    const bool is_changed = changes_clip(options, clips[i]->rate_hz);
+    const bool is_changed =
+        changes_clip(options, clips[i]->rate_hz) || is_changed_by_build(*clips[i]);
     const auto [at, is_new] = groups.try_emplace(expression);
     LicenceGroup& group = at->second;
     if (is_new || group.decision.bar == library::LicenceBar::kNone) {

@@ -7,8 +7,11 @@
 #include "app/library/export/export_folder.h"
 #include "app/library/export/export_library.h"
 #include "app/library/find/query_clips.h"
+#include "app/library/labels/settings_digest.h"
 #include "app/shell/option_checks.h"
+#include "recordings/library/index_head.h"
 #include "recordings/library/library_file.h"
+#include "recordings/library/library_paths.h"
 #include "recordings/library/library_records.h"
 
 namespace marey::app {
@@ -22,6 +25,26 @@ std::vector<std::string> format_words() {
 
 }  // namespace
 
+namespace {
+
+/// Checks that licences, labels and other settings are those that the index has.
+Status check_index_is_current(const std::filesystem::path& library,
+                              const LibrarySettings& settings) {
+  const auto head =
+      recordings::read_index_head(recordings::LibraryPaths(library).index());
+  if (!head) return head.error();
+  const auto now = settings_digest(library, settings);
+  if (!now) return now.error();
+  if (head->settings.empty() || head->settings == *now) return Done{};
+  return bad_input(library.string(),
+                   "library.toml, a table or labels changed since the last build",
+                   "build first, so that licences and labels are the current ones: marey "
+                   "library build " +
+                       library.string());
+}
+
+}  // namespace
+
 Exit run_library_export(const LibraryExportArguments& args, Console& console) {
   const auto settings = recordings::read_library(args.library / "library.toml");
   if (!settings) return console.fail(settings.error());
@@ -29,6 +52,9 @@ Exit run_library_export(const LibraryExportArguments& args, Console& console) {
   if (!options) return console.fail(options.error());
   // Before the work of reading.
   if (const Status ok = check_export_folder(args.out, args.replace); !ok) {
+    return console.fail(ok.error());
+  }
+  if (const Status ok = check_index_is_current(args.library, *settings); !ok) {
     return console.fail(ok.error());
   }
   const auto selected = query_clips(args.library, args.query);

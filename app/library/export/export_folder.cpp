@@ -68,6 +68,18 @@ Status check_only_exported(const fs::path& out) {
 
 }  // namespace
 
+Status check_outside(const fs::path& out, const fs::path& library) {
+  std::error_code failed;
+  const fs::path full = fs::weakly_canonical(fs::absolute(out, failed), failed);
+  const fs::path below = full.lexically_relative(
+      fs::weakly_canonical(fs::absolute(library, failed), failed));
+  const bool is_below = !below.empty() && *below.begin() != "..";
+  if (!is_below) return Done{};
+  return bad_input(out.string(),
+                   "it is in the folder of the library, whose builds use it",
+                   "give a folder outside the library with --to");
+}
+
 Status check_export_folder(const fs::path& out, bool replaces) {
   if (const Status ok = check_out_folder(out); !ok) return ok;
   std::error_code problem;

@@ -11,6 +11,11 @@ namespace marey::app {
 /// Name of the list of files in every export.
 inline constexpr const char* kManifest = "MANIFEST.sha256";
 
+/// Checks that a folder is not in the library: a build reads or removes what is there.
+/// Errors (kBadInput): it is.
+[[nodiscard]] Status check_outside(const std::filesystem::path& out,
+                                   const std::filesystem::path& library);
+
 /// Checks that an export may be written to `out`: it does not exist, is an empty folder,
 /// or is an earlier export (it has MANIFEST.sha256) with nothing else in it and
 /// `replaces` is set. Errors (kBadInput), with the path.

@@ -125,6 +125,9 @@ Result<ExportReport> export_library(const ExportOptions& options,
                                     std::vector<ClipRecord> records,
                                     std::span<const int> selected,
                                     const Progress& progress) {
+  if (const Status ok = check_outside(options.out, options.library); !ok) {
+    return ok.error();
+  }
   if (const Status ok = check_export_folder(options.out, options.replaces); !ok) {
     return ok.error();
   }

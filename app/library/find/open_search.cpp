@@ -37,6 +37,9 @@ Result<OpenedSearch> open_search(const std::filesystem::path& library) {
   if (!windows) return windows.error();
   auto wholes = recordings::RowsFile::open(folder / "wholes.f32", library::kWholeFloats);
   if (!wholes) return wholes.error();
+  for (const auto* file : {&*features, &*windows, &*wholes}) {
+    if (const Status ok = file->check_values(); !ok) return ok.error();
+  }
   const auto clips = recordings::count_library_clips(index);
   if (!clips) return clips.error();
   OpenedSearch out{*std::move(features), *std::move(windows), *std::move(wholes)};

@@ -78,11 +78,16 @@ std::uintmax_t bytes_below(const fs::path& folder) {
 class SourceLister {
  public:
   SourceLister(const fs::path& library,
-               const LibrarySource& source,
+               const std::vector<LibrarySource>& sources,
                std::size_t index,
-               std::set<fs::path>& known,
+               std::map<fs::path, std::size_t>& known,
                SourceListing& out)
-      : library_(library), source_(source), index_(index), known_(known), out_(out) {}
+      : library_(library),
+        sources_(sources),
+        source_(sources[index]),
+        index_(index),
+        known_(known),
+        out_(out) {}
 
   /// Returns the number of files that the source has, known ones included.
   Result<std::size_t> list(const fs::path& root) {
@@ -155,18 +160,33 @@ class SourceLister {
     const fs::path full = fs::weakly_canonical(path, failed);
     const std::string name = name_of(path);
     if (is_skipped(source_, name)) return false;
-    if (!known_.insert(full).second) return true;
+    const auto [place, is_new] = known_.emplace(full, index_);
+    if (!is_new) {
+      compare_licences(name, place->second);
+      return true;
+    }
     const std::uintmax_t bytes =
         kind == kSessionKind ? bytes_below(path) : fs::file_size(path, failed);
     out_.files.push_back({path, name, kind, index_, failed ? 0 : bytes});
     return true;
   }
 
+  /// Adds a remark if this source has another licence than an earlier one of the file.
+  void compare_licences(const std::string& name, std::size_t earlier) {
+    if (is_compared_ || sources_[earlier].licence == source_.licence) return;
+    is_compared_ = true;
+    out_.remarks.push_back(
+        name + " belongs to the sources " + in_quotes(sources_[earlier].path) + " and " +
+        in_quotes(source_.path) + ", whose licences differ; the first one counts");
+  }
+
   const fs::path& library_;
+  const std::vector<LibrarySource>& sources_;
   const LibrarySource& source_;
   std::size_t index_;
-  std::set<fs::path>& known_;
+  std::map<fs::path, std::size_t>& known_;
   SourceListing& out_;
+  bool is_compared_ = false;
 };
 
 /// Returns the words of a pattern in a file's name, with or without its extension.
@@ -215,7 +235,7 @@ std::string SourceListing::left_out_text() const {
 Result<SourceListing> list_sources(const fs::path& library,
                                    const LibrarySettings& settings) {
   SourceListing out;
-  std::set<fs::path> known;
+  std::map<fs::path, std::size_t> known;
   for (std::size_t i = 0; i < settings.sources.size(); ++i) {
     const LibrarySource& source = settings.sources[i];
     const auto at_source = [&](std::string cause, std::string next) {
@@ -244,7 +264,7 @@ Result<SourceListing> list_sources(const fs::path& library,
       return at_source("is a folder without permission",
                        "give yourself the right to read it, or remove the source");
     }
-    const auto count = SourceLister(library, source, i, known, out).list(root);
+    const auto count = SourceLister(library, settings.sources, i, known, out).list(root);
     if (!count) return count.error();
     if (*count == 0) {
       return at_source("has no file that a library reads",

@@ -33,6 +33,9 @@ struct SourceListing {
   /// Names of folders that could not be read without permission.
   std::set<std::string> closed_folders;
 
+  /// Files of several sources with different licences: the first one counts.
+  std::vector<std::string> remarks;
+
   /// Returns "12 files of other kinds were left out: 10 .txt, 2 .png; 2 folders without
   /// permission were left out, the first is a/private"; empty: none.
   [[nodiscard]] std::string left_out_text() const;

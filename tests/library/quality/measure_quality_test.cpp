@@ -254,5 +254,28 @@ TEST(MeasureQuality, RulesHaveDistinctNamesAndOrderedLimits) {
   }
 }
 
+TEST(MeasureQuality, JointsThatAreNeverMeasuredHaveNoGaps) {
+  LibraryMotion clip = walking_clip(90, 30.0);
+  const JointUncertainty measured{0.002, Source::kMeasured, Source::kMeasured};
+  const std::size_t joints = clip.motion.skeleton.joints.size();
+  clip.uncertainty.assign(90, std::vector<JointUncertainty>(joints, measured));
+  const auto set_inferred = [&](HumanBone bone, std::size_t from) {
+    for (std::size_t j = 0; j < joints; ++j) {
+      if (clip.motion.skeleton.joints[j].bone != bone) continue;
+      for (std::size_t t = from; t < 90; ++t) {
+        clip.uncertainty[t][j].source = Source::kInferred;
+      }
+    }
+  };
+  for (const HumanBone bone : {HumanBone::kLeftLowerArm, HumanBone::kRightHand}) {
+    set_inferred(bone, 0);
+  }
+  EXPECT_EQ(figure(library::measured(clip), "gap_share").value, 0.0);
+  set_inferred(HumanBone::kLeftLowerLeg, 45);
+  const QualityResult result = library::measured(clip);
+  EXPECT_NEAR(figure(result, "gap_share").value, 0.05, 1e-9) << "45 of 900";
+  EXPECT_EQ(figure(result, "longest_gap_s").value, 1.5);
+}
+
 }  // namespace
 }  // namespace marey::library

@@ -203,6 +203,67 @@ TEST(LibraryBuild, NoticesAMissingOrShortMotionAlthoughTheIndexIsCurrent) {
   }
 }
 
+/// Changes bytes in the middle of a file, whose size stays.
+void change_bytes(const fs::path& file) {
+  std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+  stream.seekp(static_cast<std::streamoff>(fs::file_size(file) / 2));
+  for (int i = 0; i < 2000; ++i) stream.put(static_cast<char>(i * 37 + 11));
+}
+
+TEST(LibraryBuild, NoticesChangedBytesInTheIndexAndInSearchRows) {
+  const WalkLibrary walks(4);
+  const fs::path library = walks.make("library");
+  ASSERT_EQ(build(library).exit_code, 0);
+  const auto whole = built_files(library);
+  for (const auto& [name, digest] : whole) {
+    if (name != "library.sqlite" && !name.ends_with("features.f32")) continue;
+    change_bytes(library / name);
+    EXPECT_NE(built_files(library), whole) << name;
+    const ProgramRun query = library_command({"similar", library.string(), "01"});
+    EXPECT_NE(query.exit_code, 0) << name << query.out;
+    EXPECT_EQ(build(library).exit_code, 0) << name;
+    EXPECT_EQ(built_files(library), whole) << name;
+  }
+}
+
+TEST(LibraryBuild, AnExportNeedsTheCurrentSettings) {
+  const WalkLibrary walks(1);
+  const fs::path library = walks.make("library");
+  ASSERT_EQ(build(library).exit_code, 0);
+  const std::string out = (walks.folder() / "export").string();
+  const auto inside = library_command({"export",
+                                       library.string(),
+                                       "--as",
+                                       "npz",
+                                       "--to",
+                                       (library / "objects" / "export").string()});
+  EXPECT_EQ(inside.exit_code, 3) << inside.err;
+  write_text(library / "library.toml",
+             testing::replace_first(
+                 read_text(library / "library.toml"), "CC0-1.0", "CC-BY-NC-4.0"));
+  const std::vector<std::string> words = {
+      "export", library.string(), "--as", "npz", "--to", out};
+  const ProgramRun stale = library_command(words);
+  EXPECT_EQ(stale.exit_code, 3) << stale.err;
+  EXPECT_NE(stale.err.find("since the last build"), std::string::npos) << stale.err;
+  ASSERT_EQ(build(library).exit_code, 0);
+  const ProgramRun refused = library_command(words);
+  EXPECT_EQ(refused.exit_code, 3) << refused.err;
+  EXPECT_NE(refused.err.find("--allow-licence"), std::string::npos) << refused.err;
+  EXPECT_FALSE(fs::exists(out));
+}
+
+TEST(LibraryBuild, NamesSourcesThatShareFilesUnderDifferentLicences) {
+  const WalkLibrary walks(2);
+  const fs::path library = walks.make(
+      "library",
+      "[[source]]\npath = \"" + walks.walk(1).string() + "\"\nlicence = \"MIT\"\n");
+  const ProgramRun run = build(library);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(result(run).at("remarks").dump().find("licences differ"), std::string::npos)
+      << run.out;
+}
+
 TEST(LibraryBuild, KeepsRemarksWhileNothingChanges) {
   const WalkLibrary walks(2);
   fs::copy_file(walks.walk(1), walks.walks() / "copy.bvh");
