@@ -29,10 +29,10 @@ struct DuplicateClip {
 /// Finds the clips that repeat another one: the same motion in another file, at another
 /// rate or on another skeleton, a part of a longer clip, or a mirror image of either. At
 /// most one entry per clip, ascending by clip. The clip with fewer rows is the duplicate,
-/// also of a later clip; of two clips with equally many rows, the later one. The most
-/// similar one of several originals counts, unmirrored before mirrored. If that one is a
-/// duplicate itself, its original counts: no original is a duplicate, and one copy always
-/// remains.
+/// also if the other one is later. If both have equally many rows, the later one is. The
+/// most similar one of several originals counts, unmirrored before mirrored. If that one
+/// is a duplicate itself, its original counts: no original is a duplicate, and one copy
+/// always remains.
 ///
 /// The features of both clips, without the height of the hips (compare_clips()), must
 /// agree over `rule.min_cover_share` of the shorter clip. Agreement is one of:

@@ -22,7 +22,7 @@ struct IndexHead {
   std::int64_t failed = 0;
   std::int64_t duplicates = 0;
   double seconds = 0.0;      ///< Duration of all clips.
-  std::string remarks = {};  ///< Of the merge, one per line.
+  std::string remarks = {};  ///< Remarks of the merge, one per line.
 };
 
 /// Reads the head of the index at `path`. Errors (kBadInput): no index; a damaged one, or

@@ -127,7 +127,7 @@ Result<ShardPlan> read_current_plan(const BuildInputs& inputs) {
                    "N; finished objects are kept");
 }
 
-/// Names the sources of labels that divide motions: of all shards.
+/// Names the sources of labels that divide motions, from the lists of all shards.
 Status name_sources_of_plan(BuildInputs& inputs, const ShardPlan& plan) {
   if (!inputs.segment_labels) return Done{};
   std::vector<std::string> names;

@@ -3,6 +3,7 @@
 #include "app/library/build/build_inputs.h"
 
 #include <algorithm>
+#include <iterator>
 #include <span>
 #include <string_view>
 #include <system_error>
@@ -16,6 +17,7 @@
 #include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
 #include "recordings/base/atomic_file.h"
+#include "recordings/base/sha256.h"
 #include "recordings/library/clip_record_file.h"
 #include "recordings/library/library_file.h"
 #include "recordings/library/library_paths.h"
@@ -31,11 +33,8 @@ namespace fs = std::filesystem;
 constexpr int kMotionStage = 1;
 constexpr int kClipsStage = 1;
 
-/// Reads the digest of the labels, and the labels if motions are divided by them.
+/// Reads the labels if motions are divided by them.
 Status read_labels_of(BuildInputs& out) {
-  auto digest = labels_digest_of(out.library);
-  if (!digest) return digest.error();
-  out.labels_digest = std::move(*digest);
   if (out.settings.segment != SegmentBy::kLabels) return Done{};
   auto labels = read_library_labels(out.library);
   if (!labels) return labels.error();
@@ -73,12 +72,31 @@ Status check_limits(const std::vector<QualityLimit>& limits, const std::string& 
   return Done{};
 }
 
+/// Returns all labels that divide the motions of a source. Sources with the same bytes
+/// may have other labels, and then have other clips.
+std::string labels_text(const BuildInputs& inputs, const SourceFile& file) {
+  std::vector<recordings::LabelRow> rows = inputs.labels_of(file);
+  for (recordings::LabelRow& row : rows) row.target.clear();
+  return recordings::sha256(recordings::labels_text(rows));
+}
+
 /// A number that every value of double has another text for.
 std::string exact_text(double value) {
   return format_text("%.17g", value);
 }
 
 }  // namespace
+
+std::vector<recordings::LabelRow> BuildInputs::labels_of(const SourceFile& file) const {
+  std::vector<recordings::LabelRow> out;
+  if (!segment_labels) return out;
+  for (const LabelFile& table : segment_labels->files) {
+    std::ranges::copy_if(table.rows, std::back_inserter(out), [&](const auto& row) {
+      return row.target == file.name;
+    });
+  }
+  return out;
+}
 
 void name_label_sources(BuildInputs& inputs, const std::vector<std::string>& names) {
   if (!inputs.segment_labels) return;
@@ -147,7 +165,7 @@ SourceKeys keys_of(const BuildInputs& inputs,
     reading += " " + entry->evidence;
   }
   std::string clips = "segment " + std::to_string(static_cast<int>(settings.segment));
-  if (settings.segment == SegmentBy::kLabels) clips += " " + inputs.labels_digest;
+  if (inputs.segment_labels) clips += " " + labels_text(inputs, file);
   for (const library::FigureRule& rule : library::figure_rules()) {
     clips += " " + std::string(rule.figure) + " " + exact_text(rule.warn) + " " +
              exact_text(rule.fail);

@@ -23,10 +23,11 @@ struct BuildInputs {
   std::vector<std::optional<IndexTable>> tables;
   /// Labels of people, if motions are divided by them.
   std::optional<LibraryLabels> segment_labels;
-  std::string labels_digest;  ///< SHA-256 of the tables of labels.
   /// SHA-256 of library.toml, the index tables and the labels.
   std::string digest;
 
+  /// Returns the labels in `segment_labels` that name a source exactly.
+  [[nodiscard]] std::vector<recordings::LabelRow> labels_of(const SourceFile& file) const;
   /// Returns what an index table states about a file; nullopt: nothing.
   [[nodiscard]] std::optional<IndexEntry> find_in_table(const SourceFile& file) const;
 };

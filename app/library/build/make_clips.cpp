@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -99,14 +98,7 @@ std::vector<ClipLabel> labels_of_motion(const BuildInputs& inputs,
                                         const SourceFile& file,
                                         const ClipRecord& body) {
   if (!inputs.segment_labels) return {};
-  LibraryLabels labels;
-  for (const LabelFile& table : inputs.segment_labels->files) {
-    LabelFile& own = labels.files.emplace_back();
-    own.name = table.name;
-    std::ranges::copy_if(table.rows, std::back_inserter(own.rows), [&](const auto& row) {
-      return row.target == file.name;
-    });
-  }
+  const LibraryLabels labels{{{"labels", inputs.labels_of(file)}}, {}};
   std::vector<ClipRecord> whole = {body};
   whole[0].provenance.path = file.name;
   (void)apply_labels(labels, whole);

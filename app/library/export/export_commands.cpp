@@ -27,7 +27,7 @@ std::vector<std::string> format_words() {
 
 namespace {
 
-/// Checks that licences, labels and other settings are those that the index has.
+/// Checks that licences, labels and other settings are the same as in the index.
 Status check_index_is_current(const std::filesystem::path& library,
                               const LibrarySettings& settings) {
   const auto head =

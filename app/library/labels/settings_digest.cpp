@@ -7,9 +7,11 @@
 #include "recordings/library/library_paths.h"
 
 namespace marey::app {
+namespace {
 
 namespace fs = std::filesystem;
 
+/// Returns the digest of the tables of labels, with their names.
 Result<std::string> labels_digest_of(const fs::path& library) {
   std::string digests;
   const auto tables = label_tables(library);
@@ -21,6 +23,8 @@ Result<std::string> labels_digest_of(const fs::path& library) {
   }
   return recordings::sha256(digests);
 }
+
+}  // namespace
 
 Result<std::string> settings_digest(const fs::path& library,
                                     const LibrarySettings& settings) {

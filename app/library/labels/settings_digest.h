@@ -10,10 +10,6 @@
 
 namespace marey::app {
 
-/// Returns the SHA-256 of the tables of labels of a library, with their names.
-/// Errors (kBadInput): a table cannot be read.
-[[nodiscard]] Result<std::string> labels_digest_of(const std::filesystem::path& library);
-
 /// Returns the SHA-256 of all inputs of a library except its sources: library.toml, the
 /// index tables, the tables of labels. An index states the digest that it was made from
 /// (recordings::IndexHead::settings). Errors (kBadInput): one of them cannot be read.
