@@ -284,6 +284,7 @@ Exit run_library_plan(const LibraryBuildArguments& args, Console& console) {
   const Status ok =
       write_shard_plan(inputs->library, {inputs->digest, args.shards}, lists);
   if (!ok) return console.fail(ok.error());
+  if (args.slurm) print_slurm_script(*inputs, args.shards);
   const std::string library = in_shell(*inputs);
   console.say(
       format_text("%zu sources in %d shards; next: marey library work %s "

@@ -322,8 +322,16 @@ TEST(LibraryBuild, TwoBuildsAtOnceDoNotMeet) {
 TEST(LibraryBuild, MergeNamesUnfinishedShards) {
   const WalkLibrary walks(4);
   const fs::path library = walks.make("library");
-  ASSERT_EQ(library_command({"plan", library.string(), "--shards", "4"}).exit_code, 0);
+  const ProgramRun plan =
+      library_command({"plan", library.string(), "--shards", "4", "--slurm"});
+  ASSERT_EQ(plan.exit_code, 0) << plan.err;
+  EXPECT_NE(plan.out.find("sbatch"), std::string::npos) << plan.out;
   ASSERT_EQ(library_command({"work", library.string(), "--shard", "2"}).exit_code, 0);
+  // Another number of shards is refused, and nothing is printed that could be run.
+  const ProgramRun other =
+      library_command({"plan", library.string(), "--shards", "3", "--slurm"});
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_TRUE(other.out.empty()) << other.out;
   const ProgramRun merge = library_command({"merge", library.string()});
   EXPECT_EQ(merge.exit_code, 3);
   EXPECT_NE(merge.err.find("1, 3, 4"), std::string::npos) << merge.err;
