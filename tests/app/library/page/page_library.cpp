@@ -86,7 +86,7 @@ ClipRecord record_of(const PageClip& clip,
 void swing_arms(Motion& motion) {
   constexpr double kLowered_rad = 1.3;
   constexpr double kSwing_rad = 0.45;
-  constexpr double kCycle_s = 1.1;  // Of synthetic_walk().
+  constexpr double kCycle_s = 1.1;  // As in synthetic_walk().
   const auto left = motion.skeleton.find(HumanBone::kLeftUpperArm);
   const auto right = motion.skeleton.find(HumanBone::kRightUpperArm);
   for (std::size_t i = 0; i < motion.poses.size(); ++i) {

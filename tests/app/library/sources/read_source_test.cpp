@@ -177,7 +177,7 @@ void name_two_animations(const fs::path& path,
                          const std::string& second) {
   auto bytes = recordings::read_file(path);
   ASSERT_TRUE(bytes) << bytes.error().message();
-  constexpr std::size_t kHead = 20;  // Of the file, 12; of the chunk of JSON, 8.
+  constexpr std::size_t kHead = 20;  // Header of the file: 12; of the JSON: 8.
   std::uint32_t size = 0;
   std::memcpy(&size, bytes->data() + 12, 4);
   auto json = nlohmann::json::parse(bytes->substr(kHead, size));
