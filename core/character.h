@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include "core/base/ids.h"
@@ -62,6 +63,9 @@ struct PointMass {
   JointIndex joint{};
   glm::dvec3 p_in_joint{0.0};  ///< Centre of mass, in the joint's frame. [m]
   double mass_kg = 0.0;
+  /// Inertia about its own centre of mass per kilogram, in the axes of the joint's frame:
+  /// symmetric; its eigenvalues are the squared radii of gyration. [m^2] 0: a point.
+  glm::dmat3 inertia_per_kg_m2{0.0};
 };
 
 /// A mass carried for a while: a bag in a hand. It has a name, so that it can be added

@@ -4,14 +4,15 @@
 # Folders inside the rooms, lowest first: a file may include its own folder and those
 # before it. "." is the room's top folder. docs/architecture.md describes each folder;
 # tests/folders.cmake checks the order.
-set(core_LAYERS base . human edit library)
+set(core_LAYERS base signal . human edit library)
 set(capture_LAYERS v4l2 sync video tags boards search feeds)
 set(calib_LAYERS model bundle rig plan quality)
 set(reconstruct_LAYERS
   clusters posture tags bundle labels markers motion segments subject tracks)
 set(retarget_LAYERS
-  base constraints bones body character contacts feet balance hands motion
+  base constraints bones body character contacts feet balance com hands motion
   adapt/plan adapt/kernel adapt)
+set(dynamics_LAYERS push flight momentum balance jumps)
 set(edit_LAYERS signal state find filter splice ops markers .)
 set(library_LAYERS clips features quality search duplicates segments labels export)
 set(recordings_LAYERS base body edit takes motion gltf markers print session library)

@@ -18,6 +18,7 @@
 #include "recordings/gltf/gltf.h"
 #include "recordings/motion/bvh.h"
 #include "retarget/character/make_character.h"
+#include "retarget/contacts/detect_contacts.h"
 #include "retarget/feet/adapt_to_ground.h"
 #include "retarget/motion/retarget_motion.h"
 

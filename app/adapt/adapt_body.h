@@ -7,9 +7,9 @@
 #include "app/motion/motion_files.h"
 #include "core/base/result.h"
 #include "core/character.h"
+#include "core/human/contacts.h"
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
-#include "retarget/contacts/detect_contacts.h"
 
 namespace marey::app {
 
@@ -18,7 +18,7 @@ struct AdaptBody {
   Character character;
   retarget::BodyMap map;
   Motion reference;
-  retarget::Contacts contacts;  ///< Detected contacts of the motion's feet.
+  Contacts contacts;            ///< Detected contacts of the motion's feet.
   double floor_height_m = 0.0;  ///< World Y of the floor of `reference`.
   /// Mesh with which the result can be written.
   BodyLook look;

@@ -53,7 +53,7 @@ OutputJson contacts_json(const edit::EditState& state) {
   constexpr std::array<const char*, 2> kSides{"left", "right"};
   OutputJson out = OutputJson::array();
   for (std::size_t side = 0; side < kSides.size(); ++side) {
-    const retarget::FootContacts& foot = state.contacts.feet[side];
+    const FootContacts& foot = state.contacts.feet[side];
     const auto add = [&](const char* part, const std::vector<FrameRange>& spans) {
       out.push_back({{"name", std::string(kSides[side]) + " " + part},
                      {"foot", kSides[side]},

@@ -62,7 +62,7 @@ recordings::NpzContacts npz_contacts(const edit::EditState& state) {
   const std::size_t count = state.motion.poses.size();
   for (std::size_t part = 0; part < kParts.size(); ++part) {
     out.names.emplace_back(name(kParts[part]));
-    const retarget::FootContacts& foot = state.contacts.feet[part / 2];
+    const FootContacts& foot = state.contacts.feet[part / 2];
     marks.push_back(retarget::frame_marks(part % 2 == 0 ? foot.heel : foot.ball, count));
   }
   for (std::size_t t = 0; t < count; ++t) {

@@ -8,9 +8,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "dynamics/flight/find_flights.h"
+
 #include "core/base/frame_range.h"
 #include "core/humanoid.h"
-#include "reconstruct/motion/find_flights.h"
 #include "retarget/body/body_map.h"
 #include "retarget/contacts/detect_contacts.h"
 
@@ -72,7 +73,7 @@ bool is_own_skeleton(const Skeleton& skeleton) {
 
 /// Removes contacts during a flight. Feet in contact just before the flight bear until it
 /// begins, and feet in contact just after it bear from its end on.
-void agree_with_flight(const reconstruct::Flight& flight,
+void agree_with_flight(const dynamics::Flight& flight,
                        double rate_hz,
                        recordings::NpzContacts& contacts) {
   std::vector<JointFrames> joints;
@@ -116,7 +117,7 @@ recordings::NpzContacts foot_contacts(const Motion& motion) {
   recordings::NpzContacts out;
   const auto map = retarget::map_body(motion.skeleton);
   if (!map || motion.poses.empty()) return out;
-  const retarget::Contacts contacts = retarget::detect_contacts(motion, *map);
+  const Contacts contacts = retarget::detect_contacts(motion, *map);
   for (const HumanBone bone : {HumanBone::kLeftFoot,
                                HumanBone::kLeftToes,
                                HumanBone::kRightFoot,
@@ -136,7 +137,7 @@ recordings::NpzContacts foot_contacts(const Motion& motion) {
     mark(contacts.feet[side].ball, 2 * side + 1);
   }
   if (is_own_skeleton(motion.skeleton)) {
-    for (const reconstruct::Flight& flight : reconstruct::find_flights(motion)) {
+    for (const dynamics::Flight& flight : dynamics::find_flights(motion)) {
       agree_with_flight(flight, motion.rate.hz, out);
     }
   }

@@ -218,7 +218,7 @@ struct Footprint {
 
 std::vector<Footprint> footprints_of(const Motion& motion,
                                      const BodyMap& map,
-                                     const retarget::Contacts& contacts) {
+                                     const Contacts& contacts) {
   const auto paths = retarget::contact_paths(motion, map);
   std::vector<Footprint> out;
   for (std::size_t side = 0; side < 2; ++side) {
@@ -242,7 +242,7 @@ bool holds(const std::vector<FrameRange>& runs, int frame) {
 
 /// Returns points on the floor below the bearing feet.
 std::string bearing_of(const Posed& posed,
-                       const retarget::Contacts& contacts,
+                       const Contacts& contacts,
                        int frame,
                        const Eye& eye) {
   std::string out;
@@ -289,7 +289,7 @@ std::vector<int> strip_frames(int frames, int count) {
 
 std::string motion_strip(const Motion& motion,
                          const retarget::BodyMap& map,
-                         const retarget::Contacts& contacts,
+                         const Contacts& contacts,
                          std::span<const int> frames,
                          const StripView& view) {
   Eye eye = eye_of(view, retarget::head_height_m(motion.skeleton, map));

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/human/contacts.h"
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
-#include "retarget/contacts/detect_contacts.h"
 
 namespace marey::app {
 
@@ -32,7 +32,7 @@ struct StripView {
 /// indices of its poses.
 [[nodiscard]] std::string motion_strip(const Motion& motion,
                                        const retarget::BodyMap& map,
-                                       const retarget::Contacts& contacts,
+                                       const Contacts& contacts,
                                        std::span<const int> frames,
                                        const StripView& view);
 

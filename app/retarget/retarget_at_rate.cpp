@@ -70,10 +70,10 @@ std::vector<FrameRange> kept_of(const std::vector<FrameRange>& runs, const Kept&
   return out;
 }
 
-retarget::Contacts kept_of(const retarget::Contacts& contacts, const Kept& kept) {
-  retarget::Contacts out = contacts;
+Contacts kept_of(const Contacts& contacts, const Kept& kept) {
+  Contacts out = contacts;
   out.frame_count = kept.count;
-  for (retarget::FootContacts& foot : out.feet) {
+  for (FootContacts& foot : out.feet) {
     foot.heel = kept_of(foot.heel, kept);
     foot.ball = kept_of(foot.ball, kept);
     foot.stance = kept_of(foot.stance, kept);

@@ -45,7 +45,7 @@ Json contact_list(const retarget::ContactFigures& figures) {
 /// Uses tabulated mass shares: the centre of mass does not depend on the total mass.
 Result<retarget::BalanceTrack> balance_of(const Motion& motion,
                                           const retarget::BodyMap& map,
-                                          const retarget::Contacts& contacts) {
+                                          const Contacts& contacts) {
   const auto masses = retarget::place_masses(motion.skeleton, map, {});
   if (!masses) return masses.error();
   return retarget::track_balance(motion, map, *masses, contacts);
@@ -132,7 +132,7 @@ Status measure_source(RetargetRun& run) {
   // The source's floor is where its feet rest, at any height.
   auto rest_heights_m = retarget::rest_heights_m(run.map);
   for (std::size_t side = 0; side < 2; ++side) {
-    const retarget::FootContacts& foot = run.contacts.feet[side];
+    const FootContacts& foot = run.contacts.feet[side];
     if (foot.stance.empty()) continue;
     rest_heights_m[side] = foot.ankle_height_m;
     rest_heights_m[side + 2] = foot.ball_height_m;

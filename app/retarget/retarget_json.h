@@ -30,8 +30,8 @@ struct AvatarResult {
   retarget::Soles soles;  ///< Measured from the avatar's skin.
   retarget::RetargetedMotion retargeted;
   AvatarVerdict verdict;
-  retarget::BodyMap map;            ///< With the soles applied.
-  retarget::Contacts own_contacts;  ///< Detected by detect_contacts() on the avatar.
+  retarget::BodyMap map;  ///< With the soles applied.
+  Contacts own_contacts;  ///< Detected by detect_contacts() on the avatar.
   retarget::ContactFigures contacts;
   /// Mean jerk of the bones that both bodies have, divided by the source's, scaled to
   /// this avatar's height.
@@ -47,7 +47,7 @@ struct RetargetRun {
   /// compared with its contacts and figures.
   Motion source;
   retarget::BodyMap map;
-  retarget::Contacts contacts;
+  Contacts contacts;
   retarget::ContactLabels labels;
   retarget::ContactFigures figures;
   retarget::BalanceTrack balance;

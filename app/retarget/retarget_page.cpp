@@ -163,7 +163,7 @@ std::string bars_of(const std::vector<FrameRange>& runs,
 }
 
 /// Returns a chart of the contacts of each foot's heel and ball: four rows.
-std::string contacts_of(const retarget::Contacts& contacts,
+std::string contacts_of(const Contacts& contacts,
                         const std::vector<int>& moments,
                         double hz) {
   std::string out = text_of("<svg viewBox=\"0 0 %.0f 42\" preserveAspectRatio=\"none\">",
@@ -191,7 +191,7 @@ std::string timeline_of(const RetargetRun& run, const std::vector<int>& moments)
       "the "
       "pictures. In the source as found, on avatars as found again in the result.</p>\n"
       "<div class=\"contacts\">";
-  const auto add = [&](const std::string& name, const retarget::Contacts& contacts) {
+  const auto add = [&](const std::string& name, const Contacts& contacts) {
     out += "<div class=\"name\">" + name + "</div>" + contacts_of(contacts, moments, hz);
   };
   add("source", run.contacts);
@@ -222,7 +222,7 @@ std::string strips_of(const RetargetRun& run, const std::vector<int>& moments) {
   const auto add = [&](const std::string& name,
                        const Motion& motion,
                        const retarget::BodyMap& map,
-                       const retarget::Contacts& contacts) {
+                       const Contacts& contacts) {
     out += "<figure><figcaption><strong>" + name + "</strong>" +
            text_of(", head joint at %.2f m</figcaption>",
                    retarget::head_height_m(motion.skeleton, map)) +

@@ -114,7 +114,7 @@ std::vector<retarget::BalanceFrame> balance_of(const Motion& motion) {
   if (!map || motion.poses.size() < 2) return {};
   const auto masses = retarget::place_masses(motion.skeleton, *map, {});
   if (!masses) return {};
-  const retarget::Contacts contacts = retarget::detect_contacts(motion, *map);
+  const Contacts contacts = retarget::detect_contacts(motion, *map);
   return retarget::balance_frames(motion, *map, *masses, contacts);
 }
 

@@ -27,12 +27,12 @@
 #include <vector>
 
 #include "edit/signal/butterworth.h"
-#include "edit/signal/choose_smoothing.h"
 
 #include "benchmarks/editing/noisy_channels.h"
 #include "benchmarks/parts/result_table.h"
 #include "core/base/quantile.h"
 #include "core/base/stopwatch.h"
+#include "core/signal/choose_smoothing.h"
 
 namespace marey {
 namespace {
@@ -102,19 +102,19 @@ std::vector<std::vector<double>> filter_errors(const Channels& noisy,
   for (std::size_t k = 0; k < noisy.size(); ++k) singles.push_back({k});
   const auto spline = [&](std::size_t filter,
                           int order,
-                          edit::GroupRule rule,
+                          GroupRule rule,
                           const std::vector<std::vector<std::size_t>>& groups) {
     Channels smoothed = noisy;
-    static_cast<void>(edit::smooth_groups(smoothed, groups, kRate_hz, {{order}, rule}));
+    static_cast<void>(smooth_groups(smoothed, groups, kRate_hz, {{order}, rule}));
     for (std::size_t k = 0; k < noisy.size(); ++k) {
       errors[filter].push_back(channel_error(smoothed[k], truth[k]));
     }
   };
-  spline(3, 2, edit::GroupRule::kMedian, body_groups());
-  spline(4, 2, edit::GroupRule::kJoint, body_groups());
-  spline(5, 2, edit::GroupRule::kMedian, singles);
-  spline(6, 3, edit::GroupRule::kMedian, body_groups());
-  spline(7, 3, edit::GroupRule::kJoint, body_groups());
+  spline(3, 2, GroupRule::kMedian, body_groups());
+  spline(4, 2, GroupRule::kJoint, body_groups());
+  spline(5, 2, GroupRule::kMedian, singles);
+  spline(6, 3, GroupRule::kMedian, body_groups());
+  spline(7, 3, GroupRule::kJoint, body_groups());
   return errors;
 }
 
@@ -177,7 +177,7 @@ void measure_time(std::size_t channel_count, std::size_t frames) {
   for (const int order : {2, 3}) {
     Channels smoothed = channels;
     const Stopwatch watch;
-    static_cast<void>(edit::smooth_groups(smoothed, groups, kRate_hz, {{order}}));
+    static_cast<void>(smooth_groups(smoothed, groups, kRate_hz, {{order}}));
     std::printf("%zu channels of %zu frames, order %d: %.3f s\n",
                 channel_count,
                 frames,

@@ -63,7 +63,7 @@ std::array<LegPlaces, 2> leg_places(const Motion& motion, const retarget::BodyMa
   return out;
 }
 
-double slide_cm_per_s(const EditState& of, const retarget::Contacts& contacts) {
+double slide_cm_per_s(const EditState& of, const Contacts& contacts) {
   const auto legs = leg_places(of.motion, of.map);
   double way_m = 0.0;
   int steps = 0;

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/flight/find_flights.h"
+
 #include "benchmarks/markers/marker_subject.h"
-#include "reconstruct/motion/find_flights.h"
 
 namespace marey {
 namespace {
@@ -51,7 +52,7 @@ void compare(const char* name,
   const auto forces = recordings::read_mot(forces_file);
   if (!forces) stop(forces.error().message());
   const auto solved = solve(person.fit.body, tracks);
-  const auto flights = reconstruct::find_flights(solved.estimate.motion);
+  const auto flights = dynamics::find_flights(solved.estimate.motion);
   const double pose_ms = 1e3 / tracks.rate.hz;
   std::array<double, 3> mean_ms{};
   std::array<double, 3> worst_ms{};

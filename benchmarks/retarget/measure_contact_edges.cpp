@@ -30,7 +30,7 @@ namespace {
 constexpr double kSameStep_s = 0.15;
 
 // Times of one kind of edge of one foot. [s]
-std::vector<double> detected_times(const retarget::Contacts& contacts,
+std::vector<double> detected_times(const Contacts& contacts,
                                    const PlateEdge& edge,
                                    double hz) {
   std::vector<double> out;

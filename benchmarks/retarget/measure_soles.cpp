@@ -59,7 +59,7 @@ SkinFigures measure_skin(const recordings::Character& file,
 /// Worst horizontal drift of an ankle or a toe joint within one contact of the source's.
 double worst_drift_mm(const Motion& motion,
                       const retarget::BodyMap& map,
-                      const retarget::Contacts& contacts) {
+                      const Contacts& contacts) {
   double worst_mm = 0.0;
   const auto add_slide = [&](std::optional<JointIndex> joint,
                              const std::vector<FrameRange>& runs) {
@@ -77,7 +77,7 @@ double worst_drift_mm(const Motion& motion,
     }
   };
   for (int side = 0; side < 2; ++side) {
-    const retarget::FootContacts& foot = contacts.feet[static_cast<std::size_t>(side)];
+    const FootContacts& foot = contacts.feet[static_cast<std::size_t>(side)];
     const HumanBone toes = side == 0 ? HumanBone::kLeftToes : HumanBone::kRightToes;
     add_slide(map.leg(side).end, foot.heel);
     add_slide(map.joint_of[index(toes)], foot.ball);
@@ -110,7 +110,7 @@ double tilt_of_arms_deg(const Skeleton& body) {
 
 Status add_row(const std::filesystem::path& glb,
                const Motion& source,
-               const retarget::Contacts& contacts,
+               const Contacts& contacts,
                ResultTable& table) {
   const auto file = recordings::read_character(glb);
   if (!file) return file.error();
@@ -145,7 +145,7 @@ int run(int count, char** files) {
     std::fprintf(stderr, "%s: %s\n", files[0], map.error().cause.c_str());
     return 3;
   }
-  const retarget::Contacts contacts = retarget::detect_contacts(motion, *map);
+  const Contacts contacts = retarget::detect_contacts(motion, *map);
   ResultTable table{"soles",
                     "Skin and feet of avatars",
                     {{"file"},

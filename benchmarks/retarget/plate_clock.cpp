@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/human/centre_of_mass.h"
 #include "core/pose.h"
-#include "retarget/body/centre_of_mass.h"
 #include "retarget/body/place_masses.h"
 
 namespace marey {
@@ -95,8 +95,7 @@ std::optional<PlateClock> plate_clock(const ContactTrial& trial) {
   std::vector<double> height_m;
   for (const Pose& pose : trial.motion.poses) {
     height_m.push_back(
-        retarget::centre_of_mass(*masses, world_from_joints(trial.motion.skeleton, pose))
-            .y);
+        centre_of_mass(*masses, world_from_joints(trial.motion.skeleton, pose)).y);
   }
   std::vector<double> force;
   std::vector<double> times_s;

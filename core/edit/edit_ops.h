@@ -188,10 +188,42 @@ struct ExaggerateOp {
   double high_hz = 0.0;  ///< 0: no upper limit.
 };
 
-/// A jump (`marey jump`). No version of marey applies it yet.
-struct JumpOp {};
+enum class EditPushLaw { kForce, kThesis };
+/// Lowest point of a push, for EditPushLaw::kThesis.
+struct EditLowestPoint {
+  double at = 0.5;        ///< Share of the push's duration, within (0, 1).
+  double height_m = 0.0;  ///< Of the centre of mass, world Y.
+  bool operator==(const EditLowestPoint&) const = default;
+};
+/// Makes one jump of the motion higher, longer or different (`marey jump`). Members
+/// without a value keep what the captured jump has.
+struct JumpOp {
+  int jump = 1;  ///< Number of the jump within the span, from 1.
+  /// Highest point of the centre of mass above the take-off's floor, or added to the
+  /// captured one. At most one of both. [m]
+  std::optional<double> apex_m{};
+  std::optional<double> apex_by_m{};
+  std::optional<double> airtime_s{};
+  /// Distance between the middles of the soles at take-off and landing. [m]
+  std::optional<double> length_m{};
+  /// Middle of the soles at landing. Excludes length_m and box_m.
+  std::optional<glm::dvec3> landing_in_world{};
+  /// Height of the landing's floor above the take-off's. [m]
+  std::optional<double> box_m{};
+  std::optional<double> push_s{};      ///< Duration of the push.
+  std::optional<Moment> push_start{};  ///< Start of the push; nullopt: found.
+  EditPushLaw law = EditPushLaw::kForce;
+  std::optional<EditLowestPoint> lowest{};  ///< For kThesis; nullopt: the captured one.
+  std::optional<double> strength_g{};       ///< Largest push, in g.
+  double gravity_m_s2 = 9.81;               ///< 0.5 to 30.
+  bool ballistic = false;                   ///< The captured flight becomes a parabola.
+  bool keep_momentum = true;                ///< Constant angular momentum in flight.
+};
 
-enum class EditBalance { kHorizontal };
+enum class EditBalance {
+  kHorizontal,  ///< The centre of mass, while the body stands still.
+  kZmp,         ///< The zero moment point, of the whole motion.
+};
 /// Keeps the centre of mass over the feet.
 struct BalanceOp {
   EditBalance mode = EditBalance::kHorizontal;

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "edit/signal/butterworth.h"
-#include "edit/signal/smoothing_spline.h"
 
 #include "core/base/assert.h"
+#include "core/signal/smoothing_spline.h"
 #include "retarget/base/smooth_step.h"
 
 namespace marey::edit {

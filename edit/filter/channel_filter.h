@@ -6,10 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "edit/signal/choose_smoothing.h"
-
 #include "core/base/frame_range.h"
 #include "core/edit/edit_ops.h"
+#include "core/signal/choose_smoothing.h"
 
 namespace marey::edit {
 

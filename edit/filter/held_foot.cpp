@@ -162,7 +162,7 @@ VectorRun turns_in_run(std::span<const FootPlace> places,
 }
 
 StoodFoot stood_foot(std::span<const FootPlace> before,
-                     const retarget::FootContacts& contacts,
+                     const FootContacts& contacts,
                      const retarget::FootMap& foot,
                      std::span<const int> impacts,
                      double hz) {
@@ -238,7 +238,7 @@ std::vector<glm::dvec3> held_turns(std::span<const FootPlace> before,
 
 HeldFoot held_foot(std::span<const FootPlace> before,
                    std::span<const FootPlace> after,
-                   const retarget::FootContacts& contacts,
+                   const FootContacts& contacts,
                    const retarget::FootMap& foot,
                    std::span<const int> impacts,
                    double hz) {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "core/human/contacts.h"
 #include "retarget/body/body_map.h"
-#include "retarget/contacts/detect_contacts.h"
 #include "retarget/feet/foot_place.h"
 
 namespace marey::edit {
@@ -26,7 +26,7 @@ using HeldFoot = std::vector<std::optional<retarget::FootPlace>>;
 /// `after` hold the foot in each frame. Linear in frames.
 [[nodiscard]] HeldFoot held_foot(std::span<const retarget::FootPlace> before,
                                  std::span<const retarget::FootPlace> after,
-                                 const retarget::FootContacts& contacts,
+                                 const FootContacts& contacts,
                                  const retarget::FootMap& foot,
                                  std::span<const int> impacts,
                                  double hz);

@@ -8,9 +8,10 @@
 #include <cstddef>
 #include <optional>
 
-#include "edit/signal/choose_smoothing.h"
-#include "edit/signal/smoothing_spline.h"
 #include <glm/geometric.hpp>
+
+#include "core/signal/choose_smoothing.h"
+#include "core/signal/smoothing_spline.h"
 
 namespace marey::edit {
 namespace {

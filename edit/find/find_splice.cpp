@@ -54,7 +54,7 @@ PlanarMatch match_in_place(const MatchPoints& a,
 // Frames in which each foot stands.
 using StanceMarks = std::array<std::vector<char>, 2>;
 
-StanceMarks marks_of_stances(const retarget::Contacts& contacts) {
+StanceMarks marks_of_stances(const Contacts& contacts) {
   const auto count = static_cast<std::size_t>(contacts.frame_count);
   return {retarget::frame_marks(contacts.feet[0].stance, count),
           retarget::frame_marks(contacts.feet[1].stance, count)};
@@ -206,7 +206,7 @@ bool contains_frame(const std::vector<FrameRange>& runs, int frame) {
 
 }  // namespace
 
-SupportClass support_class(const retarget::Contacts& contacts, int frame) {
+SupportClass support_class(const Contacts& contacts, int frame) {
   MAREY_ASSERT(frame >= 0 && frame < contacts.frame_count);
   return class_of(contains_frame(contacts.feet[0].stance, frame),
                   contains_frame(contacts.feet[1].stance, frame));

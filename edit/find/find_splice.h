@@ -8,14 +8,14 @@
 #include "edit/state/edit_state.h"
 
 #include "core/base/frame_range.h"
-#include "retarget/contacts/detect_contacts.h"
+#include "core/human/contacts.h"
 
 namespace marey::edit {
 
 /// Feet that bear in one frame.
 enum class SupportClass { kNone, kLeft, kRight, kBoth };
 /// Precondition: the frame is one of the contacts'.
-[[nodiscard]] SupportClass support_class(const retarget::Contacts& contacts, int frame);
+[[nodiscard]] SupportClass support_class(const Contacts& contacts, int frame);
 /// Returns true if one frame stands on the left foot alone and the other on the right
 /// one.
 [[nodiscard]] bool supports_oppose(SupportClass a, SupportClass b);

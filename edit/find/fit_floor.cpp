@@ -152,7 +152,7 @@ FloorSlopes solve_slopes(std::span<const RestingSole> soles,
 }  // namespace
 
 std::vector<RestingSole> resting_soles(const EditState& state,
-                                       const retarget::Contacts& contacts,
+                                       const Contacts& contacts,
                                        const FrameRange& frames) {
   std::vector<RestingSole> out;
   const std::size_t count = state.motion.poses.size();

@@ -10,7 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/base/frame_range.h"
-#include "retarget/contacts/detect_contacts.h"
+#include "core/human/contacts.h"
 
 namespace marey::edit {
 
@@ -25,7 +25,7 @@ struct RestingSole {
 /// and toe joint while both rest; otherwise the joint that rests. Heights above the sole
 /// are those of the body (FootMap). Linear in frames.
 [[nodiscard]] std::vector<RestingSole> resting_soles(const EditState& state,
-                                                     const retarget::Contacts& contacts,
+                                                     const Contacts& contacts,
                                                      const FrameRange& frames);
 
 /// Properties of the floor that footprints determine.

@@ -10,10 +10,10 @@
 #include <optional>
 #include <utility>
 
-#include "edit/signal/smoothing_spline.h"
 #include <glm/geometric.hpp>
 
 #include "core/pose.h"
+#include "core/signal/smoothing_spline.h"
 
 namespace marey::edit {
 namespace {
@@ -23,7 +23,7 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 /// Returns the median time between two stances of one foot.
 double cycle_of(const EditState& state) {
   std::vector<double> steps_s;
-  for (const retarget::FootContacts& foot : state.contacts.feet) {
+  for (const FootContacts& foot : state.contacts.feet) {
     for (std::size_t i = 1; i < foot.stance.size(); ++i) {
       steps_s.push_back((foot.stance[i].first - foot.stance[i - 1].first) /
                         state.motion.rate.hz);

@@ -10,7 +10,6 @@
 
 #include "edit/filter/channel_filter.h"
 #include "edit/ops/filter.h"
-#include "edit/signal/choose_smoothing.h"
 #include "edit/state/check_op_keys.h"
 #include "edit/state/op_weights.h"
 #include <glm/common.hpp>
@@ -18,6 +17,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/base/format_text.h"
+#include "core/signal/choose_smoothing.h"
 
 namespace marey::edit {
 namespace {

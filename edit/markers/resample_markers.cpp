@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "edit/signal/cubic_spline.h"
 #include "edit/state/frame_places.h"
 #include "edit/state/time_map.h"
 
 #include "core/base/assert.h"
+#include "core/signal/cubic_spline.h"
 
 namespace marey::edit {
 namespace {

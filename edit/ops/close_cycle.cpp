@@ -139,7 +139,7 @@ void make_periodic(CycleChannels& channels) {
 /// stance that of its middle, so that a footprint moves as a whole; between stances it
 /// runs from one to the next. Whole cycles are added to it from copy to copy. A foot that
 /// always stands, or never, moves with the body.
-std::vector<double> foot_shares(const retarget::Contacts& contacts, std::size_t side) {
+std::vector<double> foot_shares(const Contacts& contacts, std::size_t side) {
   const int frames = contacts.frame_count;
   std::vector<double> out;
   for (int n = 0; n < 3 * frames; ++n) out.push_back(n);
@@ -258,7 +258,7 @@ void put_in_place(const CyclePaths& paths, EditState& cycle) {
     move_pose(paths.in_place(static_cast<double>(k) / frames),
               cycle.motion.poses[static_cast<std::size_t>(k)]);
   }
-  for (retarget::FootContacts& foot : cycle.contacts.feet) {
+  for (FootContacts& foot : cycle.contacts.feet) {
     foot.heel.clear();
     foot.ball.clear();
     foot.stance.clear();
@@ -290,10 +290,10 @@ int cycle_frames(const CycleSpec& spec) {
   return std::max(2, static_cast<int>(std::lround(spec.period_frames)));
 }
 
-retarget::Contacts repeat_contacts(const retarget::Contacts& contacts, int count) {
-  retarget::Contacts out = contacts;
+Contacts repeat_contacts(const Contacts& contacts, int count) {
+  Contacts out = contacts;
   out.frame_count = count * contacts.frame_count;
-  for (retarget::FootContacts& foot : out.feet) {
+  for (FootContacts& foot : out.feet) {
     for (auto* runs : {&foot.heel, &foot.ball, &foot.stance, &foot.heel_up}) {
       *runs = repeat_runs(*runs, contacts.frame_count, count);
     }

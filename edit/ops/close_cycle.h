@@ -36,7 +36,7 @@ struct ClosedCycle {
   /// middle one, and `travel` moves each to the next.
   Motion three;
   /// Contacts of the cycle, also where `cycle` has none.
-  retarget::Contacts contacts;
+  Contacts contacts;
   PlanarMove travel;
   double travel_m = 0.0;  ///< Distance that the hips travel in one cycle.
   PlantReport plant;
@@ -70,7 +70,6 @@ struct ClosedCycle {
 
 /// Returns the contacts of `count` copies of a cycle: runs that reach a seam continue on
 /// its other side.
-[[nodiscard]] retarget::Contacts repeat_contacts(const retarget::Contacts& contacts,
-                                                 int count);
+[[nodiscard]] Contacts repeat_contacts(const Contacts& contacts, int count);
 
 }  // namespace marey::edit

@@ -13,8 +13,8 @@
 #include <glm/vec2.hpp>
 
 #include "core/base/format_text.h"
+#include "core/human/contacts.h"
 #include "core/pose.h"
-#include "retarget/contacts/detect_contacts.h"
 #include "retarget/feet/leg_placement.h"
 
 namespace marey::edit {
@@ -70,7 +70,7 @@ void report_moving_foot(const ContactEdit& edit,
   if (edit.kind == ContactEdit::Kind::kClear) return;
   const auto side = static_cast<std::size_t>(edit.side);
   const bool is_heel = edit.part == FootPart::kHeel;
-  const retarget::FootContacts& foot = state.contacts.feet[side];
+  const FootContacts& foot = state.contacts.feet[side];
   const auto toes = state.map.joint_of[marey::index(retarget::toes_bone(edit.side))];
   const JointIndex joint = is_heel || !toes ? state.map.leg(edit.side).end : *toes;
   const double hz = state.motion.rate.hz;

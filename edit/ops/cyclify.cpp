@@ -191,7 +191,7 @@ bool is_cycle_event(std::string_view text) {
 }
 
 /// Events of one cycle, in which the first frame follows the last.
-std::vector<Annotation> cycle_events(const retarget::Contacts& contacts, double hz) {
+std::vector<Annotation> cycle_events(const Contacts& contacts, double hz) {
   std::vector<Annotation> out;
   const auto count = static_cast<std::size_t>(contacts.frame_count);
   for (std::size_t side = 0; side < 2; ++side) {

@@ -14,7 +14,6 @@
 #include "edit/filter/filter_group.h"
 #include "edit/filter/held_foot.h"
 #include "edit/find/find_impacts.h"
-#include "edit/signal/choose_smoothing.h"
 #include "edit/state/op_weights.h"
 #include "edit/state/plant_feet.h"
 #include "edit/state/resample_state.h"
@@ -22,6 +21,7 @@
 
 #include "core/base/degrees.h"
 #include "core/pose.h"
+#include "core/signal/choose_smoothing.h"
 #include "retarget/contacts/frame_marks.h"
 #include "retarget/feet/leg_placement.h"
 

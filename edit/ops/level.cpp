@@ -16,12 +16,13 @@
 
 #include "core/base/degrees.h"
 #include "core/base/format_text.h"
+#include "retarget/contacts/detect_contacts.h"
 
 namespace marey::edit {
 namespace {
 
 /// Detects contacts by speed; heights may differ by the tilt of a floor.
-retarget::Contacts contacts_by_speed(const EditState& state) {
+Contacts contacts_by_speed(const EditState& state) {
   retarget::DetectContactsOptions options;
   constexpr double kAnyHeightInLegs = 0.4;
   options.start_height_legs = kAnyHeightInLegs;

@@ -136,7 +136,7 @@ PlantReport move_body(const PathChange& change,
   }
   retarget::GroundOptions ground;
   ground.straight = kBentLeg;
-  const retarget::Contacts contacts = state.contacts;
+  const Contacts contacts = state.contacts;
   for (auto& foot : state.contacts.feet) {
     foot.stance = with_swings(foot.stance, state.motion.rate.hz, count);
   }

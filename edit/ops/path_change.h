@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "edit/find/travel_path.h"
-#include "edit/signal/cubic_spline.h"
 
 #include "core/base/frame_range.h"
 #include "core/base/result.h"
 #include "core/edit/edit_ops.h"
+#include "core/signal/cubic_spline.h"
 #include "core/transform.h"
 
 namespace marey::edit {

@@ -163,7 +163,7 @@ std::vector<std::vector<JointUncertainty>> scaled_uncertainty(
   return out;
 }
 
-void set_contact_heights(const retarget::BodyMap& map, retarget::Contacts& contacts) {
+void set_contact_heights(const retarget::BodyMap& map, Contacts& contacts) {
   for (std::size_t side = 0; side < 2; ++side) {
     contacts.feet[side].ankle_height_m = map.feet[side].ankle_height_m;
     contacts.feet[side].ball_height_m = map.feet[side].ball_height_m;

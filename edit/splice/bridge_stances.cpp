@@ -43,13 +43,13 @@ glm::dvec3 sole_of(const FootPlace& place, const retarget::FootMap& foot) {
   return place.ankle_in_world + 0.5 * (place.foot * foot.ball_from_ankle_in_t_pose);
 }
 
-bool stands_at(const retarget::FootContacts& foot, int frame) {
+bool stands_at(const FootContacts& foot, int frame) {
   return std::any_of(foot.stance.begin(), foot.stance.end(), [&](const FrameRange& run) {
     return run.first <= frame && frame <= run.last;
   });
 }
 
-bool stands_within(const retarget::FootContacts& foot, const FrameRange& frames) {
+bool stands_within(const FootContacts& foot, const FrameRange& frames) {
   return std::any_of(foot.stance.begin(), foot.stance.end(), [&](const FrameRange& run) {
     return std::max(run.first, frames.first) <= std::min(run.last, frames.last);
   });
@@ -97,8 +97,8 @@ BridgeMoves halves_of_gap(const OverlapFeet& feet,
 
 // Entries of the overlap in which the foot bears in both motions; the join if there are
 // none.
-std::vector<std::size_t> common_entries(const retarget::FootContacts& first,
-                                        const retarget::FootContacts& second,
+std::vector<std::size_t> common_entries(const FootContacts& first,
+                                        const FootContacts& second,
                                         const JoinFrames& frames) {
   std::vector<std::size_t> out;
   for (int k = frames.body.first; k <= frames.body.last; ++k) {
@@ -173,7 +173,7 @@ void bridge_gap(const OverlapFeet& feet,
 }
 
 void place_foot(const OverlapFeet& feet,
-                const std::array<const retarget::FootContacts*, 2>& own,
+                const std::array<const FootContacts*, 2>& own,
                 const std::vector<FrameRange>& stances,
                 const JoinFrames& frames,
                 double hz,

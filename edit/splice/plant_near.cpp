@@ -24,7 +24,7 @@
 namespace marey::edit {
 namespace {
 
-using retarget::FootContacts;
+using FootContacts;
 using retarget::FootPlace;
 using PlannedFeet = std::array<std::vector<std::optional<FootPlace>>, 2>;
 

@@ -13,8 +13,8 @@
 namespace marey::edit {
 namespace {
 
-using retarget::Contacts;
-using retarget::FootContacts;
+using Contacts;
+using FootContacts;
 using FrameMarks = std::vector<char>;
 
 constexpr double kMinContact_s = 0.06;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "retarget/contacts/detect_contacts.h"
+#include "core/human/contacts.h"
 
 namespace marey::edit {
 
@@ -25,8 +25,8 @@ struct JoinedFrames {
 /// motion, or of the second one for a foot that never stands in the first. Linear in
 /// frames.
 /// Precondition: `start` <= `join`; both motions show the frame `join`.
-[[nodiscard]] retarget::Contacts join_contacts(const retarget::Contacts& first,
-                                               const retarget::Contacts& second,
-                                               const JoinedFrames& frames);
+[[nodiscard]] Contacts join_contacts(const Contacts& first,
+                                     const Contacts& second,
+                                     const JoinedFrames& frames);
 
 }  // namespace marey::edit

@@ -9,12 +9,13 @@
 #include <optional>
 #include <vector>
 
+#include "retarget/contacts/detect_contacts.h"
 #include "retarget/contacts/frame_marks.h"
 
 namespace marey::edit {
 namespace {
 
-using retarget::FootContacts;
+using FootContacts;
 
 void mark(std::vector<char>& marks, int first, int last, char value) {
   const int end = static_cast<int>(marks.size()) - 1;

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "retarget/contacts/detect_contacts.h"
+
 namespace marey::edit {
 namespace {
 

@@ -10,9 +10,9 @@
 #include "core/constraint.h"
 #include "core/edit/annotation.h"
 #include "core/edit/contact_edit.h"
+#include "core/human/contacts.h"
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
-#include "retarget/contacts/detect_contacts.h"
 
 namespace marey::edit {
 
@@ -25,7 +25,7 @@ struct EditState {
   std::vector<std::vector<JointUncertainty>> uncertainty;
   ConstraintSet constraints;
   Annotations annotations;
-  retarget::Contacts contacts;  ///< One contact frame per pose.
+  Contacts contacts;  ///< One contact frame per pose.
   /// Changes of the contacts by hand, in their order; they are applied again after each
   /// new detection.
   std::vector<ContactEdit> contact_edits;

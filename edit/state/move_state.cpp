@@ -77,7 +77,7 @@ void move_state(const RigidTransform& new_from_old, EditState& state) {
   for (Constraint& constraint : state.constraints.constraints) {
     move_constraint(new_from_old, constraint);
   }
-  for (retarget::FootContacts& foot : state.contacts.feet) {
+  for (FootContacts& foot : state.contacts.feet) {
     foot.ankle_height_m += new_from_old.translation.y;
     foot.ball_height_m += new_from_old.translation.y;
   }

@@ -174,11 +174,10 @@ std::vector<FrameRange> resample_runs(const std::vector<FrameRange>& runs,
   return out;
 }
 
-retarget::Contacts resample_contacts(const retarget::Contacts& from,
-                                     std::span<const double> at_frame) {
-  retarget::Contacts out = from;
+Contacts resample_contacts(const Contacts& from, std::span<const double> at_frame) {
+  Contacts out = from;
   out.frame_count = static_cast<int>(at_frame.size());
-  for (retarget::FootContacts& foot : out.feet) {
+  for (FootContacts& foot : out.feet) {
     for (auto* runs : {&foot.heel, &foot.ball, &foot.stance, &foot.heel_up}) {
       *runs = resample_runs(*runs, at_frame);
     }

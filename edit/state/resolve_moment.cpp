@@ -16,7 +16,7 @@
 namespace marey::edit {
 namespace {
 
-using retarget::FootContacts;
+using FootContacts;
 
 constexpr double kBeyondFrames = 0.5;
 

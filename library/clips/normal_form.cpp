@@ -88,7 +88,7 @@ Result<LibraryMotion> make_library_motion(
   out.motion = in_normal_form(motion, *map);
   out.uncertainty = std::move(uncertainty);
   out.contacts.resize(motion.poses.size());
-  const retarget::Contacts contacts = retarget::detect_contacts(motion, *map);
+  const Contacts contacts = retarget::detect_contacts(motion, *map);
   for (std::size_t side = 0; side < contacts.feet.size(); ++side) {
     mark_contacts(contacts.feet[side].heel, 2 * side, out.contacts);
     mark_contacts(contacts.feet[side].ball, 2 * side + 1, out.contacts);

@@ -15,9 +15,9 @@
 
 #include "core/base/degrees.h"
 #include "core/base/quantile.h"
+#include "core/human/centre_of_mass.h"
 #include "core/skeleton.h"
 #include "retarget/body/body_volume.h"
-#include "retarget/body/centre_of_mass.h"
 #include "retarget/body/place_masses.h"
 #include "retarget/contacts/detect_contacts.h"
 
@@ -68,7 +68,7 @@ FootHeights heights_of_foot(const retarget::BodyMap& map,
 
 std::array<std::vector<char>, 2> standing_frames(const Motion& motion,
                                                  const retarget::BodyMap& map) {
-  const retarget::Contacts contacts = retarget::detect_contacts(motion, map);
+  const Contacts contacts = retarget::detect_contacts(motion, map);
   std::array<std::vector<char>, 2> out;
   for (std::size_t side = 0; side < out.size(); ++side) {
     out[side].assign(motion.poses.size(), 0);
@@ -89,7 +89,7 @@ std::vector<char> supported_frames(const Motion& motion, const retarget::BodyMap
   std::vector<double> mass_m;
   for (const Pose& pose : motion.poses) {
     world_from_joints(motion.skeleton, pose, world);
-    mass_m.push_back(masses ? retarget::centre_of_mass(*masses, world).y
+    mass_m.push_back(masses ? centre_of_mass(*masses, world).y
                             : world[index(map.hips())].translation.y);
   }
   const auto half =

@@ -16,8 +16,8 @@
 
 #include "core/base/assert.h"
 #include "core/base/quantile.h"
+#include "core/human/contacts.h"
 #include "retarget/body/body_volume.h"
-#include "retarget/contacts/detect_contacts.h"
 #include "retarget/hands/find_touches.h"
 
 namespace marey::library {
@@ -63,13 +63,13 @@ std::vector<double> heights_of(const std::vector<glm::dvec3>& path) {
 }
 
 // The clip's own contacts, for find_relations().
-retarget::Contacts contacts_of(const LibraryMotion& motion,
-                               const retarget::BodyMap& map,
-                               const QualityFrames& frames) {
-  retarget::Contacts out;
+Contacts contacts_of(const LibraryMotion& motion,
+                     const retarget::BodyMap& map,
+                     const QualityFrames& frames) {
+  Contacts out;
   out.frame_count = frames.count;
   for (std::size_t side = 0; side < 2; ++side) {
-    retarget::FootContacts& foot = out.feet[side];
+    FootContacts& foot = out.feet[side];
     const std::size_t heel = 2 * side;
     foot.heel = runs_of(marks_of(motion.contacts, {heel}), frames.hz, 0.0);
     foot.ball = runs_of(marks_of(motion.contacts, {heel + 1}), frames.hz, 0.0);
@@ -171,7 +171,7 @@ FoundLabels find_labels(const LibraryMotion& motion, const retarget::BodyMap& ma
   MAREY_ASSERT(motion.contacts.size() == motion.motion.poses.size());
   if (motion.motion.poses.empty()) return {};
   const QualityFrames frames = quality_frames(motion.motion, map);
-  const retarget::Contacts contacts = contacts_of(motion, map, frames);
+  const Contacts contacts = contacts_of(motion, map, frames);
   LabelCollector out(frames.count, frames.hz);
   add_relations(
       find_relations(motion.motion, map, contacts), frames.hz, frames.count - 1, out);

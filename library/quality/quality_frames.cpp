@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/human/centre_of_mass.h"
 #include "core/pose.h"
 #include "retarget/body/body_volume.h"
-#include "retarget/body/centre_of_mass.h"
 #include "retarget/body/place_masses.h"
 
 namespace marey::library {
@@ -69,8 +69,8 @@ class FrameFiller {
                  : angle_between_rad(motion_.poses[t - 1].parent_from_joint[j],
                                      motion_.poses[t].parent_from_joint[j]);
     }
-    out_.com_in_world[t] = masses_.empty() ? world_[0].translation
-                                           : retarget::centre_of_mass(masses_, world_);
+    out_.com_in_world[t] =
+        masses_.empty() ? world_[0].translation : centre_of_mass(masses_, world_);
     for (int side = 0; side < 2; ++side) {
       fill_foot(t, side);
       fill_hand(t, side);

@@ -109,7 +109,7 @@ void measure_arm(const ArmPoints& arm,
 
 RelationMeasures measure_frame(const RelationBody& body,
                                const LevelFrame& frame,
-                               const retarget::Contacts& contacts,
+                               const Contacts& contacts,
                                Frames world) {
   const double leg_m = body.points.leg_length_m;
   RelationMeasures out;
@@ -126,7 +126,7 @@ RelationMeasures measure_frame(const RelationBody& body,
     const glm::dvec3 hip = world[index(body.points.hip_joints[side])].translation;
     to.ankle_forward = frame.from_world(ankle).z / leg_m;
     to.knee_rad = bend_angle_rad(hip, knee, ankle);
-    const retarget::FootContacts& rest = contacts.feet[side];
+    const FootContacts& rest = contacts.feet[side];
     to.foot_height =
         std::min(ankle.y - rest.ankle_height_m, toes.y - rest.ball_height_m) / leg_m;
   }
@@ -181,7 +181,7 @@ void measure_path(const std::vector<LevelFrame>& frames,
 
 std::vector<RelationMeasures> measure_relations(const Motion& motion,
                                                 const retarget::BodyMap& map,
-                                                const retarget::Contacts& contacts) {
+                                                const Contacts& contacts) {
   const RelationBody body = relation_body(motion.skeleton, map);
   std::vector<RigidTransform> world(motion.skeleton.joints.size());
   std::vector<RelationMeasures> out;

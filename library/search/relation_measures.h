@@ -8,9 +8,9 @@
 
 #include "library/features/level_frame.h"
 
+#include "core/human/contacts.h"
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
-#include "retarget/contacts/detect_contacts.h"
 
 namespace marey::library {
 
@@ -36,8 +36,6 @@ struct RelationMeasures {
 
 /// Computes the measures of every frame; see find_relations().
 [[nodiscard]] std::vector<RelationMeasures> measure_relations(
-    const Motion& motion,
-    const retarget::BodyMap& map,
-    const retarget::Contacts& contacts);
+    const Motion& motion, const retarget::BodyMap& map, const Contacts& contacts);
 
 }  // namespace marey::library

@@ -190,7 +190,7 @@ Relation mirrored(Relation relation) {
 
 std::vector<RelationRun> find_relations(const Motion& motion,
                                         const retarget::BodyMap& map,
-                                        const retarget::Contacts& contacts) {
+                                        const Contacts& contacts) {
   MAREY_ASSERT(motion.rate.hz > 0.0);
   const auto measures = measure_relations(motion, map, contacts);
   const std::array<std::vector<char>, 2> bears = {

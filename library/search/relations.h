@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/base/frame_range.h"
+#include "core/human/contacts.h"
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
-#include "retarget/contacts/detect_contacts.h"
 
 namespace marey::library {
 
@@ -97,6 +97,6 @@ struct RelationRun {
 /// skeleton; `contacts` are of this motion; the rate is positive.
 [[nodiscard]] std::vector<RelationRun> find_relations(const Motion& motion,
                                                       const retarget::BodyMap& map,
-                                                      const retarget::Contacts& contacts);
+                                                      const Contacts& contacts);
 
 }  // namespace marey::library

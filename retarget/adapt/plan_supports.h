@@ -11,9 +11,9 @@
 #include "core/base/frame_range.h"
 #include "core/constraint.h"
 #include "core/floor.h"
+#include "core/human/contacts.h"
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
-#include "retarget/contacts/detect_contacts.h"
 #include "retarget/feet/stand_feet_on.h"
 
 namespace marey::retarget {

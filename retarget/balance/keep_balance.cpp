@@ -9,10 +9,10 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
+#include "core/human/centre_of_mass.h"
 #include "core/pose.h"
 #include "retarget/base/smooth_step.h"
 #include "retarget/base/triweight.h"
-#include "retarget/body/centre_of_mass.h"
 
 namespace marey::retarget {
 namespace {

@@ -10,11 +10,11 @@
 #include "core/base/time.h"
 #include "core/character.h"
 #include "core/character_spec.h"
+#include "core/human/contacts.h"
 #include "core/skeleton.h"
 #include "retarget/balance/measure_balance.h"
 #include "retarget/body/body_map.h"
 #include "retarget/body/normalized_skeleton.h"
-#include "retarget/contacts/detect_contacts.h"
 #include "retarget/contacts/support_frame.h"
 #include "retarget/feet/adapt_to_ground.h"
 

@@ -11,8 +11,8 @@
 #include <glm/vec2.hpp>
 
 #include "core/base/assert.h"
+#include "core/human/centre_of_mass.h"
 #include "core/pose.h"
-#include "retarget/body/centre_of_mass.h"
 #include "retarget/body/foot_shape.h"
 #include "retarget/body/rotation_from_t_pose.h"
 #include "retarget/contacts/frame_marks.h"

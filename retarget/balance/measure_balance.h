@@ -11,10 +11,10 @@
 #include <glm/vec3.hpp>
 
 #include "core/character.h"
+#include "core/human/contacts.h"
 #include "core/motion.h"
 #include "core/transform.h"
 #include "retarget/body/body_map.h"
-#include "retarget/contacts/detect_contacts.h"
 #include "retarget/feet/live_stance.h"
 
 namespace marey::retarget {

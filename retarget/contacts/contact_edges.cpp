@@ -8,6 +8,7 @@
 
 #include "core/base/assert.h"
 #include "retarget/contacts/descent_arrest.h"
+#include "retarget/contacts/detect_contacts.h"
 #include "retarget/contacts/foot_paths.h"
 
 namespace marey::retarget {

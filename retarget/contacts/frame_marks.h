@@ -9,7 +9,7 @@
 
 #include "core/base/assert.h"
 #include "core/base/frame_range.h"
-#include "retarget/contacts/detect_contacts.h"
+#include "core/human/contacts.h"
 
 namespace marey::retarget {
 

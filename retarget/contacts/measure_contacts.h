@@ -10,9 +10,9 @@
 
 #include "core/base/frame_range.h"
 #include "core/base/ids.h"
+#include "core/human/contacts.h"
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
-#include "retarget/contacts/detect_contacts.h"
 
 namespace marey::retarget {
 

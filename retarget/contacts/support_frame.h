@@ -9,9 +9,9 @@
 #include <glm/vec2.hpp>
 
 #include "core/base/time.h"
+#include "core/human/contacts.h"
 #include "core/transform.h"
 #include "retarget/body/body_map.h"
-#include "retarget/contacts/detect_contacts.h"
 
 namespace marey::retarget {
 

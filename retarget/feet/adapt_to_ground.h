@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/base/time.h"
+#include "core/human/contacts.h"
 #include "core/skeleton.h"
 #include "retarget/body/body_map.h"
 #include "retarget/body/normalized_skeleton.h"
-#include "retarget/contacts/detect_contacts.h"
 #include "retarget/feet/plan_foot_path.h"
 
 namespace marey::retarget {

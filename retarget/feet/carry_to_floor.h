@@ -3,9 +3,9 @@
 #pragma once
 
 #include "core/floor.h"
+#include "core/human/contacts.h"
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
-#include "retarget/contacts/detect_contacts.h"
 #include "retarget/feet/adapt_to_ground.h"
 
 namespace marey::retarget {

@@ -10,8 +10,8 @@
 
 #include "core/base/frame_range.h"
 #include "core/base/time.h"
+#include "core/human/contacts.h"
 #include "retarget/body/body_map.h"
-#include "retarget/contacts/detect_contacts.h"
 #include "retarget/feet/foot_place.h"
 
 namespace marey::retarget {

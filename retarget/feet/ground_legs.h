@@ -9,11 +9,11 @@
 #include <glm/vec3.hpp>
 
 #include "core/base/time.h"
+#include "core/human/contacts.h"
 #include "core/skeleton.h"
 #include "core/transform.h"
 #include "retarget/body/body_map.h"
 #include "retarget/body/normalized_skeleton.h"
-#include "retarget/contacts/detect_contacts.h"
 #include "retarget/feet/foot_place.h"
 
 namespace marey::retarget {

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "core/human/contacts.h"
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
 #include "retarget/body/skin.h"
-#include "retarget/contacts/detect_contacts.h"
 
 namespace marey::retarget {
 

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
+#include "retarget/contacts/detect_contacts.h"
 #include "retarget/feet/leg_placement.h"
 
 namespace marey::retarget {

@@ -5,9 +5,9 @@
 #include <array>
 
 #include "core/floor.h"
+#include "core/human/contacts.h"
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
-#include "retarget/contacts/detect_contacts.h"
 #include "retarget/feet/stand_feet_on.h"
 
 namespace marey::retarget {

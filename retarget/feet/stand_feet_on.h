@@ -8,8 +8,8 @@
 #include "core/base/frame_range.h"
 #include "core/base/time.h"
 #include "core/floor.h"
+#include "core/human/contacts.h"
 #include "retarget/body/body_map.h"
-#include "retarget/contacts/detect_contacts.h"
 #include "retarget/feet/plan_foot_path.h"
 
 namespace marey::retarget {

@@ -7,10 +7,10 @@
 #include <glm/vec3.hpp>
 
 #include "core/base/frame_range.h"
+#include "core/human/contacts.h"
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
 #include "retarget/body/body_volume.h"
-#include "retarget/contacts/detect_contacts.h"
 
 namespace marey::retarget {
 

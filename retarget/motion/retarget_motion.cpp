@@ -15,6 +15,7 @@
 #include "retarget/body/match_carriage.h"
 #include "retarget/body/place_masses.h"
 #include "retarget/body/rotation_from_t_pose.h"
+#include "retarget/contacts/detect_contacts.h"
 #include "retarget/feet/leg_placement.h"
 #include "retarget/feet/unroll_feet.h"
 #include "retarget/hands/keep_heights.h"

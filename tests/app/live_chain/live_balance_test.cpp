@@ -48,7 +48,7 @@ class BalanceOfAWalk : public ::testing::Test {
 
   Motion walk_ =
       testing::synthetic_walk(kBalanceFrames, kBalanceRate_hz, 0.002, 0.001).motion;
-  retarget::Contacts contacts_;
+  Contacts contacts_;
   std::vector<BalanceFrame> recorded_;
 };
 

@@ -10,9 +10,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/centre_of_mass.h"
 #include "retarget/balance/measure_balance.h"
 #include "retarget/base/smooth_step.h"
-#include "retarget/body/centre_of_mass.h"
 #include "retarget/body/place_masses.h"
 #include "tests/edit/ops/op_scene.h"
 #include "tests/edit/ops/standing_scene.h"

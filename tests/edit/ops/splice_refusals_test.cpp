@@ -44,7 +44,7 @@ TEST(Splice, GivenFramesOnOppositeFeetAreReported) {
 
 TEST(Splice, JoinInsideAFlightIsReported) {
   EditState walk = splice_walk();
-  for (retarget::FootContacts& foot : walk.contacts.feet) {
+  for (FootContacts& foot : walk.contacts.feet) {
     for (auto* runs : {&foot.heel, &foot.ball, &foot.stance, &foot.heel_up}) {
       std::erase_if(*runs, [](const FrameRange& run) { return run.last > 120; });
     }

@@ -186,7 +186,7 @@ TEST(Splice, StanceWithAGapAtTheJoinHasOneFootprint) {
     if (run.first > 100 && at == 0) at = (run.first + run.last) / 2;
   }
   const auto set_runs = [](EditState& state, const FrameRange& run) {
-    retarget::FootContacts& foot = state.contacts.feet[0];
+    FootContacts& foot = state.contacts.feet[0];
     foot.heel = {run};
     foot.ball = {run};
     foot.stance = {run};

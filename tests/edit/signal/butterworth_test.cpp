@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/edit/signal/synthetic_channel.h"
+#include "tests/support/simulation/synthetic_channel.h"
 
 namespace marey::edit {
 namespace {

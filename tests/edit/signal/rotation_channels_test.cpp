@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "edit/signal/butterworth.h"
-#include "edit/signal/choose_smoothing.h"
 #include <gtest/gtest.h>
 
+#include "core/signal/choose_smoothing.h"
 #include "core/transform.h"
 
 namespace marey::edit {

@@ -23,7 +23,7 @@ EditState drifting() {
   EditState state = state_of(standing_motion(kWalkFrames, [](int frame, Pose& pose) {
     pose.root_in_world.x += 0.02 * frame / 60.0;
   }));
-  for (retarget::FootContacts& foot : state.contacts.feet) {
+  for (FootContacts& foot : state.contacts.feet) {
     const std::vector<FrameRange> all{{0, kWalkFrames - 1}};
     foot.heel = all;
     foot.ball = all;
@@ -75,7 +75,7 @@ TEST(PlantNear, SwingThatIsPlannedOutOfReachDoesNotSnapTheKneeStraight) {
         3, foot.translation + glm::dvec3(0, 0.02, ahead_m), foot.rotation, pose);
   }
   EditState state = state_of(motion);
-  retarget::FootContacts& right = state.contacts.feet[1];
+  FootContacts& right = state.contacts.feet[1];
   right.heel = right.ball = right.stance = {{0, 39}, {100, 119}};
   right.heel_up.clear();
   FootWays feet{foot_places(state, 0), foot_places(state, 1)};

@@ -10,12 +10,12 @@ namespace marey::edit {
 namespace {
 
 // Left foot of a motion of 100 frames at 100 Hz whose heel and ball have these contacts.
-retarget::Contacts left_foot(std::vector<FrameRange> heel,
-                             std::vector<FrameRange> ball,
-                             std::vector<FrameRange> heel_up = {}) {
-  retarget::Contacts out;
+Contacts left_foot(std::vector<FrameRange> heel,
+                   std::vector<FrameRange> ball,
+                   std::vector<FrameRange> heel_up = {}) {
+  Contacts out;
   out.frame_count = 100;
-  retarget::FootContacts& foot = out.feet[0];
+  FootContacts& foot = out.feet[0];
   foot.stance = ball;
   foot.heel = std::move(heel);
   foot.ball = std::move(ball);

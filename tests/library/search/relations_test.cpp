@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "core/human/average_proportions.h"
+#include "retarget/contacts/detect_contacts.h"
 #include "tests/library/moved_motion.h"
 #include "tests/support/simulation/synthetic_walk.h"
 

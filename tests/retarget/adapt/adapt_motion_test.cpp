@@ -11,6 +11,7 @@
 #include "core/base/frame_range.h"
 #include "core/pose.h"
 #include "retarget/character/make_character.h"
+#include "retarget/contacts/detect_contacts.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/simulation/synthetic_walk.h"
 

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/frame_range.h"
+#include "retarget/contacts/detect_contacts.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/simulation/synthetic_walk.h"
 

@@ -12,6 +12,7 @@
 #include "core/base/quantile.h"
 #include "core/human/average_proportions.h"
 #include "core/pose.h"
+#include "retarget/contacts/detect_contacts.h"
 #include "retarget/contacts/frame_marks.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/bodies/random_bodies.h"

@@ -10,7 +10,7 @@
 #include "core/character.h"
 #include "core/transform.h"
 
-namespace marey::retarget {
+namespace marey {
 
 /// Returns the centre of mass of a posture, in the world. [m] Linear in masses.
 /// Precondition: the sum of the masses is positive; their joints are of the posture.
@@ -25,4 +25,4 @@ namespace marey::retarget {
   return sum / mass_kg;
 }
 
-}  // namespace marey::retarget
+}  // namespace marey

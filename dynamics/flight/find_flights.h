@@ -6,7 +6,7 @@
 
 #include "core/motion.h"
 
-namespace marey::reconstruct {
+namespace marey::dynamics {
 
 /// An interval without support of the body: in a jump, between two steps of a run.
 struct Flight {
@@ -38,4 +38,4 @@ struct FindFlightsOptions {
 [[nodiscard]] std::vector<Flight> find_flights(const Motion& motion,
                                                const FindFlightsOptions& options = {});
 
-}  // namespace marey::reconstruct
+}  // namespace marey::dynamics

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/signal/smoothing_spline.h"
+#include "core/signal/smoothing_spline.h"
 
 #include <array>
 #include <cmath>
@@ -10,10 +10,10 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/edit/signal/synthetic_channel.h"
 #include "tests/support/program/count_allocations.h"
+#include "tests/support/simulation/synthetic_channel.h"
 
-namespace marey::edit {
+namespace marey {
 namespace {
 
 using DenseMatrix = std::vector<std::vector<long double>>;
@@ -249,4 +249,4 @@ TEST_P(SmoothingSplineOfOrder, FitsAndScoresAllocateNothing) {
 }
 
 }  // namespace
-}  // namespace marey::edit
+}  // namespace marey

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/signal/spline_curve.h"
+#include "core/signal/spline_curve.h"
 
 #include <cmath>
 #include <numbers>
@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/edit/signal/synthetic_channel.h"
+#include "tests/support/simulation/synthetic_channel.h"
 
-namespace marey::edit {
+namespace marey {
 namespace {
 
 constexpr std::size_t kCurveSamples = 241;
@@ -116,4 +116,4 @@ TEST_P(SplineCurveOfOrder, SlowedDownItHasNoFrequencyAboveTheSourcesNyquist) {
 }
 
 }  // namespace
-}  // namespace marey::edit
+}  // namespace marey

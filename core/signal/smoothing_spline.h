@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace marey::edit {
+namespace marey {
 
 /// Kind of a smoothing spline.
 struct SplineOptions {
@@ -119,4 +119,4 @@ class SmoothingSpline {
   std::vector<double> work_;
 };
 
-}  // namespace marey::edit
+}  // namespace marey

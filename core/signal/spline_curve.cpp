@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/signal/spline_curve.h"
+#include "core/signal/spline_curve.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "core/base/assert.h"
 
-namespace marey::edit {
+namespace marey {
 namespace {
 
 constexpr int kCurveMaxOrder = 6;
@@ -124,4 +124,4 @@ double SplineCurve::at(double time_s, int derivative) const {
   return value * scale;
 }
 
-}  // namespace marey::edit
+}  // namespace marey

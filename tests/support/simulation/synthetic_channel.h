@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace marey::edit::testing {
+namespace marey::testing {
 
 /// Returns a sum of eight sines with random phases and frequencies up to `band_hz`, whose
 /// amplitudes fall with the frequency as those of movements do.
@@ -50,4 +50,4 @@ inline double rms_difference(std::span<const double> a, std::span<const double> 
   return std::sqrt(squares / static_cast<double>(a.size()));
 }
 
-}  // namespace marey::edit::testing
+}  // namespace marey::testing

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "edit/signal/smoothing_spline.h"
+#include "core/signal/smoothing_spline.h"
 
-namespace marey::edit {
+namespace marey {
 
 /// Fewest samples for which a penalty is chosen.
 inline constexpr std::size_t kMinSmoothingSamples = 20;
@@ -104,4 +104,4 @@ struct SmoothingChannels {
     const ChooseSmoothingOptions& options = {},
     std::span<const std::vector<double>> weights = {});
 
-}  // namespace marey::edit
+}  // namespace marey

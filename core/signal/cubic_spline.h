@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace marey::edit {
+namespace marey {
 
 /// The cubic spline through given values, with continuous first and second derivatives.
 /// Both ends have no second derivative ("natural"), or the start has a given slope.
@@ -33,4 +33,4 @@ class CubicSpline {
   std::vector<double> bends_;  ///< Second derivatives at the knots.
 };
 
-}  // namespace marey::edit
+}  // namespace marey

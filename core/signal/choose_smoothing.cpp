@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/signal/choose_smoothing.h"
+#include "core/signal/choose_smoothing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "core/base/assert.h"
 
-namespace marey::edit {
+namespace marey {
 namespace {
 
 constexpr int kLatticePerOctave = 16;
@@ -353,4 +353,4 @@ SmoothingReport smooth_groups(std::span<std::vector<double>> channels,
   return report;
 }
 
-}  // namespace marey::edit
+}  // namespace marey

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/signal/cubic_spline.h"
+#include "core/signal/cubic_spline.h"
 
 #include <cmath>
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 #include "tests/support/bodies/random_bodies.h"
 
-namespace marey::edit {
+namespace marey {
 namespace {
 
 using marey::testing::Dice;
@@ -67,4 +67,4 @@ TEST(CubicSpline, StartsWithTheGivenSlope) {
 }
 
 }  // namespace
-}  // namespace marey::edit
+}  // namespace marey

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/signal/choose_smoothing.h"
+#include "core/signal/choose_smoothing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/edit/signal/synthetic_channel.h"
+#include "tests/support/simulation/synthetic_channel.h"
 
-namespace marey::edit {
+namespace marey {
 namespace {
 
 constexpr double kChooseRate_hz = 120.0;
@@ -236,4 +236,4 @@ TEST(ChooseSmoothing, AnEmptyListOfChannelsIsNoError) {
 }
 
 }  // namespace
-}  // namespace marey::edit
+}  // namespace marey

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/signal/smoothing_spline.h"
+#include "core/signal/smoothing_spline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "core/base/assert.h"
 
-namespace marey::edit {
+namespace marey {
 namespace {
 
 constexpr std::size_t size_of_order(int order) {
@@ -280,4 +280,4 @@ std::span<const double> SmoothingSpline::top_derivative() const {
   return std::span(work_).subspan(size_of_order(options_.order), rows_.size());
 }
 
-}  // namespace marey::edit
+}  // namespace marey

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/motion/find_flights.h"
+#include "dynamics/flight/find_flights.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "core/base/quantile.h"
 #include "core/pose.h"
 
-namespace marey::reconstruct {
+namespace marey::dynamics {
 namespace {
 
 using B = HumanBone;
@@ -155,4 +155,4 @@ std::vector<Flight> find_flights(const Motion& motion,
   return flights;
 }
 
-}  // namespace marey::reconstruct
+}  // namespace marey::dynamics

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/motion/find_flights.h"
+#include "dynamics/flight/find_flights.h"
 
 #include <cmath>
 #include <vector>
@@ -11,7 +11,7 @@
 #include "core/pose.h"
 #include "tests/support/bodies/random_bodies.h"
 
-namespace marey::reconstruct {
+namespace marey::dynamics {
 namespace {
 
 using testing::Dice;
@@ -109,4 +109,4 @@ TEST(FindFlights, AFlightThatTheMotionCutsIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace marey::reconstruct
+}  // namespace marey::dynamics

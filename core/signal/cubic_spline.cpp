@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "edit/signal/cubic_spline.h"
+#include "core/signal/cubic_spline.h"
 
 #include <algorithm>
 #include <cstddef>
 
 #include "core/base/assert.h"
 
-namespace marey::edit {
+namespace marey {
 
 CubicSpline::CubicSpline(std::span<const double> knots,
                          std::span<const double> values,
@@ -69,4 +69,4 @@ double CubicSpline::slope_at(double x) const {
              6.0;
 }
 
-}  // namespace marey::edit
+}  // namespace marey

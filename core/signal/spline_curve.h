@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "edit/signal/smoothing_spline.h"
+#include "core/signal/smoothing_spline.h"
 
-namespace marey::edit {
+namespace marey {
 
 /// A fitted smoothing spline as a function of time: values and derivatives between the
 /// samples, for resampling and for slowing a motion down.
@@ -34,4 +34,4 @@ class SplineCurve {
   std::vector<double> coefficients_;
 };
 
-}  // namespace marey::edit
+}  // namespace marey
