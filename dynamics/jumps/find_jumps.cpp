@@ -45,7 +45,7 @@ struct Search {
   const BodyTrack& track;
   const FindJumpsOptions& options;
   double fall_m_s2 = 0.0;  // Expected, positive.
-  double scale = 1.0;      // Of the feet.
+  double scale = 1.0;      // Scale of the feet.
   Slopes slopes;
 
   [[nodiscard]] double hz() const { return track.rate.hz; }
