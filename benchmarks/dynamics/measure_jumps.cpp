@@ -3,10 +3,11 @@
 //
 // measure_jumps DATA [FOLDER...]
 //
-// Events of jumps (dynamics/jumps/find_jumps.h) against force plates, compared with
-// find_flights(); the acceleration of captured flights; the time of a search; and, for
-// the BVH and AMC files below the folders, the number of jumps and of those that other
-// evidence contradicts. DATA is the shared data. docs/accuracy/dynamics.md has figures.
+// Compares the events of jumps (dynamics/jumps/find_jumps.h) and those of find_flights()
+// with force plates. Prints the states and accelerations of captured jumps and the time
+// of a search. Counts the jumps of the BVH and AMC files below the folders, and the ones
+// that independent evidence contradicts. DATA is the shared data.
+// docs/accuracy/dynamics.md has figures.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,6 +32,9 @@ namespace fs = std::filesystem;
 
 // Take-off speed of DJ1 by the impulse on its plates.
 constexpr double kPlateSpeed_m_s = 2.46;
+
+// Words in the names of clips that leave the floor.
+constexpr std::array kFlightWords{"run", "dash", "jump", "hop"};
 
 /// A flight as found, by any method.
 struct FoundFlight {
@@ -226,11 +230,17 @@ Contradictions contradictions(const BodyTrack& track, const dynamics::Jump& jump
   return out;
 }
 
-/// What a file's name says of its content: the word after the number of its set.
+/// Content of a clip by its file's name: the word after the number of the set.
 std::string content_of(const std::string& name) {
   const std::size_t first = name.find('_');
   if (!name.starts_with("dataset-") || first == std::string::npos) return "other";
   return name.substr(first + 1, name.find('_', first + 1) - first - 1);
+}
+
+bool is_named_flight(const std::string& name) {
+  return std::any_of(kFlightWords.begin(), kFlightWords.end(), [&](const char* word) {
+    return name.find(word) != std::string::npos;
+  });
 }
 
 struct ContentCount {
@@ -275,7 +285,11 @@ void print_library(const std::vector<ClipResult>& results) {
       continue;
     }
     ++count.clips;
-    if (!one.jumps.empty()) ++count.clips_with;
+    if (!one.jumps.empty()) {
+      ++count.clips_with;
+    } else if (is_named_flight(one.name)) {
+      std::printf("  %-40s no jump\n", one.name.c_str());
+    }
     for (std::size_t i = 0; i < one.jumps.size(); ++i) {
       const Contradictions& c = one.evidence[i];
       ++count.jumps;
