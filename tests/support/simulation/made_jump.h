@@ -29,6 +29,7 @@ struct MadeJumpOptions {
   double noise_m = 0.0;     ///< Standard deviation per axis, of every point.
   std::uint64_t seed = 1;
   bool one_footed = false;  ///< The right foot hangs behind the body.
+  bool somersault = false;  ///< The feet turn once about the centre of mass in flight.
   double first_floor_m = 0.0;
 };
 
