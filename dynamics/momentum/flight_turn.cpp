@@ -16,6 +16,8 @@
 namespace marey::dynamics {
 namespace {
 
+// Largest rotation of one step: beyond, the linear equations do not hold.
+constexpr double kMaxStep_rad = 0.4;
 constexpr std::size_t kUnknowns = 6;
 constexpr std::size_t kRows = kUnknowns + 3;
 using Equations = std::array<std::array<double, kRows + 1>, kRows>;
@@ -232,14 +234,19 @@ std::optional<double> FlightTurn::step() {
   glm::dvec3 first(0.0);
   glm::dvec3 momentum(0.0);
   if (!solve(first, momentum)) return std::nullopt;
+  const auto rotation = [&](std::size_t k) {
+    const Row& row = rows_[k];
+    return row.constant + row.of_first * first + row.of_momentum * momentum;
+  };
   double largest_rad = 0.0;
   for (std::size_t k = 1; k + 1 < frame_count(); ++k) {
-    const Row& row = rows_[k];
-    const glm::dvec3 phi =
-        row.constant + row.of_first * first + row.of_momentum * momentum;
-    if (!std::isfinite(glm::dot(phi, phi))) return std::nullopt;
-    largest_rad = std::max(largest_rad, glm::length(phi));
-    turns_[k] = glm::normalize(rotation_from_vector(phi) * turns_[k]);
+    const double angle_rad = glm::length(rotation(k));
+    if (!std::isfinite(angle_rad)) return std::nullopt;
+    largest_rad = std::max(largest_rad, angle_rad);
+  }
+  const double share = std::min(1.0, kMaxStep_rad / std::max(largest_rad, 1e-300));
+  for (std::size_t k = 1; k + 1 < frame_count(); ++k) {
+    turns_[k] = glm::normalize(rotation_from_vector(share * rotation(k)) * turns_[k]);
   }
   measure();
   return largest_rad;

@@ -44,7 +44,8 @@ class FlightTurn {
   [[nodiscard]] double largest_turn_rad() const;
 
   /// One Newton step on all rotations and on the constant momentum; the first and the
-  /// last rotation stay. Returns the largest rotation of the step in [rad]; nullopt if
+  /// last rotation stay. Returns the largest rotation of the full
+  /// step [rad], of which at most 0.4 are taken; nullopt if
   /// the equations have no solution. Allocates nothing.
   std::optional<double> step();
 

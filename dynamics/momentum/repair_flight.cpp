@@ -12,10 +12,8 @@ namespace marey::dynamics {
 namespace {
 
 constexpr std::size_t kMinPoses = 4;
-constexpr int kMaxSteps = 20;
-constexpr double kConverged_rad = 1e-9;
-// A step beyond this leaves the range in which the linear equations hold.
-constexpr double kMaxStep_rad = 3.0;
+constexpr int kMaxSteps = 40;
+constexpr double kConverged_rad = 1e-7;
 
 }  // namespace
 
@@ -33,12 +31,11 @@ MomentumRepair keep_angular_momentum(const Skeleton& skeleton,
   bool converged = false;
   for (int i = 0; i < kMaxSteps && !converged; ++i) {
     const std::optional<double> step_rad = flight.step();
-    if (!step_rad || *step_rad > kMaxStep_rad) break;
+    if (!step_rad) break;
     converged = *step_rad < kConverged_rad;
   }
   out.largest_turn_rad = flight.largest_turn_rad();
-  if (!converged && !(flight.sd_kg_m2_s() < out.sd_before_kg_m2_s)) return out;
-  if (!(out.largest_turn_rad <= options.largest_turn_rad)) return out;
+  if (!converged || !(out.largest_turn_rad <= options.largest_turn_rad)) return out;
   for (std::size_t k = 1; k + 1 < poses.size(); ++k) {
     Pose& pose = poses[k];
     const glm::dvec3& com = flight.com_in_world(k);
