@@ -14,6 +14,9 @@
 
 namespace marey::dynamics {
 
+/// Share of the weight below which a body counts as unloaded.
+inline constexpr double kLoadedShare = 0.2;
+
 /// Ground reaction of one frame, from motion alone. Per kilogram of the body.
 struct GroundReaction {
   glm::dvec3 force_m_s2{0.0};  ///< Acceleration of the centre of mass plus gravity.
