@@ -10,6 +10,7 @@
 
 #include "dynamics/balance/banded_cholesky.h"
 #include "dynamics/balance/local_cubic.h"
+#include "dynamics/balance/zmp_edges.h"
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
@@ -21,78 +22,14 @@ namespace {
 constexpr double kPricePerM = 1e4;
 constexpr double kPinned = 1e10;
 constexpr double kMinFreedom = 1e-3;
-constexpr double kWidthShare = 0.25;
-constexpr double kMinWidth_m = 1e-6;
 // Size of the first step of the interior-point method, and of its last. [m]
 constexpr double kFirstSlack_m = 0.01;
 constexpr double kFirstGap = 1e-2;
-constexpr double kLastGap = 1e-11;
+constexpr double kLastGap = 1e-10;
 constexpr double kLastResidual = 1e-9;
 constexpr double kToBoundary = 0.99;
 // Smaller distances outside are rounding.
 constexpr double kMet_m = 1e-7;
-
-// One edge of a support area: normal . p <= bound + slack.
-struct Edge {
-  std::size_t frame = 0;
-  glm::dvec2 normal{0.0};
-  double bound_m = 0.0;
-  // Distance to the edge, elastic part, and their multipliers: all above 0.
-  double room = kFirstSlack_m;
-  double slack = 0.0;
-  double push = 0.0;
-  double release = 0.0;
-  // Newton step.
-  double d_room = 0.0, d_slack = 0.0, d_push = 0.0, d_release = 0.0;
-  // Work: residual of the constraint, elimination.
-  double residual = 0.0, compliance = 0.0, offset = 0.0;
-  // Products of the predictor's step.
-  double correct_room = 0.0, correct_slack = 0.0;
-};
-
-double signed_area(std::span<const glm::dvec2> corners) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const glm::dvec2& a = corners[i];
-    const glm::dvec2& b = corners[(i + 1) % corners.size()];
-    sum += a.x * b.y - a.y * b.x;
-  }
-  return 0.5 * sum;
-}
-
-// Adds the edges of a frame, moved inwards; returns false if the area has no inside.
-bool add_edges(std::size_t frame,
-               std::span<const glm::dvec2> corners,
-               double margin_m,
-               std::vector<Edge>& out) {
-  if (corners.size() < 3) return false;
-  const double sense = signed_area(corners) > 0.0 ? 1.0 : -1.0;
-  const std::size_t first = out.size();
-  double width_m = std::numeric_limits<double>::max();
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const glm::dvec2 along = corners[(i + 1) % corners.size()] - corners[i];
-    const double length_m = glm::length(along);
-    if (length_m < kMinWidth_m) continue;
-    Edge edge;
-    edge.frame = frame;
-    edge.normal = sense / length_m * glm::dvec2(along.y, -along.x);
-    edge.bound_m = glm::dot(edge.normal, corners[i]);
-    double across_m = 0.0;
-    for (const glm::dvec2& p : corners) {
-      across_m = std::max(across_m, edge.bound_m - glm::dot(edge.normal, p));
-    }
-    width_m = std::min(width_m, across_m);
-    out.push_back(edge);
-  }
-  if (out.size() < first + 3 || width_m < kMinWidth_m) {
-    out.resize(first);
-    return false;
-  }
-  for (std::size_t k = first; k < out.size(); ++k) {
-    out[k].bound_m -= std::min(margin_m, kWidthShare * width_m);
-  }
-  return true;
-}
 
 // The quadratic programme and its state.
 class ZmpProgramme {
@@ -114,16 +51,19 @@ class ZmpProgramme {
       const double bend = options.smoothness_s2 * input.rate.hz * input.rate.hz *
                           (reaction.zmp_xz_m ? 1.0 : options.flight_factor);
       smooth_.push_back(bend * bend);
-      if (!reaction.zmp_xz_m || freedom <= kMinFreedom) continue;
-      if (!add_edges(t, input.supports[t], options.margin_m, edges_)) ++without_area_;
+      if (freedom <= kMinFreedom) continue;
+      add_shift_limits(t, options.max_shift_m, edges_);
+      if (!reaction.zmp_xz_m) continue;
+      if (!add_support_edges(t, input.supports[t], options.margin_m, edges_)) {
+        ++without_area_;
+      }
     }
   }
 
   // Returns true if the reference itself meets all constraints.
   [[nodiscard]] bool is_met() const {
-    return std::all_of(edges_.begin(), edges_.end(), [&](const Edge& edge) {
-      return glm::dot(edge.normal, *input_.reactions[edge.frame].zmp_xz_m) <=
-             edge.bound_m;
+    return std::all_of(edges_.begin(), edges_.end(), [&](const ZmpEdge& edge) {
+      return glm::dot(edge.normal, reference(row_of(edge))) <= edge.bound_m;
     });
   }
 
@@ -136,11 +76,12 @@ class ZmpProgramme {
       // Predictor: towards the solution; corrector: towards the central path.
       eliminate(0.0, false);
       const double predicted = std::pow(1.0 - longest_step(), 3.0);
-      for (Edge& edge : edges_) {
+      for (ZmpEdge& edge : edges_) {
         edge.correct_room = edge.d_room * edge.d_push;
         edge.correct_slack = edge.d_slack * edge.d_release;
       }
       eliminate(std::max(predicted, 1e-3) * gap, true);
+      if (!has_step()) return i;  // Rounding prevents a better solution.
       advance(kToBoundary * longest_step());
     }
     return max_iterations;
@@ -151,40 +92,59 @@ class ZmpProgramme {
   }
   // Returns the predicted zero moment point. Precondition: the frame is loaded.
   [[nodiscard]] glm::dvec2 zmp(std::size_t t) const {
-    return *input_.reactions[t].zmp_xz_m + moved(x_, t);
+    return *input_.reactions[t].zmp_xz_m + moved(x_, {t, true, lever_s2_[t]});
   }
   [[nodiscard]] int without_area() const { return without_area_; }
 
  private:
-  // Returns the displacement of a zero moment point by displacements of the body.
-  [[nodiscard]] glm::dvec2 moved(std::span<const double> x, std::size_t t) const {
+  // A point of one frame that edges limit: its zero moment point, or its displacement,
+  // which has no lever.
+  struct Row {
+    std::size_t frame = 0;
+    bool of_zmp = true;
+    double lever_s2 = 0.0;
+  };
+
+  [[nodiscard]] Row row_of(const ZmpEdge& edge) const {
+    return {edge.frame, edge.of_zmp, edge.of_zmp ? lever_s2_[edge.frame] : 0.0};
+  }
+  // Returns the place of the point before the displacement.
+  [[nodiscard]] glm::dvec2 reference(const Row& row) const {
+    if (row.of_zmp) return *input_.reactions[row.frame].zmp_xz_m;
+    return input_.displaced_xz_m.empty() ? glm::dvec2(0.0)
+                                         : input_.displaced_xz_m[row.frame];
+  }
+
+  // Returns the displacement of the point by displacements of the body.
+  [[nodiscard]] glm::dvec2 moved(std::span<const double> x, const Row& row) const {
+    const std::size_t t = row.frame;
     const auto weights = derive_.curvature(t);
     const std::size_t first = derive_.first(t);
     glm::dvec2 bend(0.0);
     for (std::size_t i = 0; i < weights.size(); ++i) {
       bend += weights[i] * glm::dvec2(x[2 * (first + i)], x[2 * (first + i) + 1]);
     }
-    return glm::dvec2(x[2 * t], x[2 * t + 1]) - lever_s2_[t] * bend;
+    return glm::dvec2(x[2 * t], x[2 * t + 1]) - row.lever_s2 * bend;
   }
 
   // Adds the transpose of moved(), applied to `force`.
   void add_transposed(const glm::dvec2& force,
-                      std::size_t t,
+                      const Row& row,
                       std::span<double> out) const {
+    const std::size_t t = row.frame;
     const auto weights = derive_.curvature(t);
     const std::size_t first = derive_.first(t);
     for (std::size_t i = 0; i < weights.size(); ++i) {
-      out[2 * (first + i)] -= lever_s2_[t] * weights[i] * force.x;
-      out[2 * (first + i) + 1] -= lever_s2_[t] * weights[i] * force.y;
+      out[2 * (first + i)] -= row.lever_s2 * weights[i] * force.x;
+      out[2 * (first + i) + 1] -= row.lever_s2 * weights[i] * force.y;
     }
     out[2 * t] += force.x;
     out[2 * t + 1] += force.y;
   }
 
   void start() {
-    for (Edge& edge : edges_) {
-      const double room_m =
-          edge.bound_m - glm::dot(edge.normal, *input_.reactions[edge.frame].zmp_xz_m);
+    for (ZmpEdge& edge : edges_) {
+      const double room_m = edge.bound_m - glm::dot(edge.normal, reference(row_of(edge)));
       edge.room = std::max(room_m, kFirstSlack_m);
       edge.push = kFirstGap / edge.room;
       edge.release = kPricePerM - edge.push;
@@ -213,16 +173,16 @@ class ZmpProgramme {
       gradient_[i + 2] += bend;
     }
     double gap = 0.0;
-    for_each_frame([&](std::size_t t, std::span<Edge> edges) {
-      const glm::dvec2 p = zmp(t);
+    for_each_row([&](const Row& row, std::span<ZmpEdge> edges) {
+      const glm::dvec2 p = reference(row) + moved(x_, row);
       glm::dvec2 force(0.0);
-      for (Edge& edge : edges) {
+      for (ZmpEdge& edge : edges) {
         edge.residual = glm::dot(edge.normal, p) - edge.slack + edge.room - edge.bound_m;
         residual_ = std::max(residual_, std::abs(edge.residual));
         force += edge.push * edge.normal;
         gap += edge.push * edge.room + edge.release * edge.slack;
       }
-      add_transposed(force, t, gradient_);
+      add_transposed(force, row, gradient_);
     });
     return gap / static_cast<double>(2 * edges_.size());
   }
@@ -238,28 +198,29 @@ class ZmpProgramme {
         }
       }
     }
-    for_each_frame([&](std::size_t t, std::span<Edge> edges) {
+    for_each_row([&](const Row& row, std::span<ZmpEdge> edges) {
       double xx = 0.0, xz = 0.0, zz = 0.0;
-      for (Edge& edge : edges) {
+      for (ZmpEdge& edge : edges) {
         edge.compliance = edge.slack / edge.release + edge.room / edge.push;
         xx += edge.normal.x * edge.normal.x / edge.compliance;
         xz += edge.normal.x * edge.normal.y / edge.compliance;
         zz += edge.normal.y * edge.normal.y / edge.compliance;
       }
-      add_frame(t, xx, xz, zz);
+      add_row(row, xx, xz, zz);
     });
     matrix_.factorize();
   }
 
-  void add_frame(std::size_t t, double xx, double xz, double zz) {
+  void add_row(const Row& row, double xx, double xz, double zz) {
+    const std::size_t t = row.frame;
     const auto weights = derive_.curvature(t);
     const std::size_t first = derive_.first(t);
-    const auto row = [&](std::size_t i) {
-      return (first + i == t ? 1.0 : 0.0) - lever_s2_[t] * weights[i];
+    const auto effect = [&](std::size_t i) {
+      return (first + i == t ? 1.0 : 0.0) - row.lever_s2 * weights[i];
     };
     for (std::size_t a = 0; a < weights.size(); ++a) {
       for (std::size_t b = 0; b <= a; ++b) {
-        const double share = row(a) * row(b);
+        const double share = effect(a) * effect(b);
         const std::size_t i = 2 * (first + a);
         const std::size_t j = 2 * (first + b);
         matrix_.add(i, j, share * xx);
@@ -274,9 +235,9 @@ class ZmpProgramme {
   // are taken into account.
   void eliminate(double target_gap, bool corrects) {
     for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = -gradient_[i];
-    for_each_frame([&](std::size_t t, std::span<Edge> edges) {
+    for_each_row([&](const Row& row, std::span<ZmpEdge> edges) {
       glm::dvec2 force(0.0);
-      for (Edge& edge : edges) {
+      for (ZmpEdge& edge : edges) {
         const auto [room_off, slack_off] = gaps(edge, target_gap, corrects);
         const double price_off = edge.push + edge.release - kPricePerM;
         edge.offset = edge.residual +
@@ -284,12 +245,12 @@ class ZmpProgramme {
                       room_off / edge.push;
         force += edge.offset / edge.compliance * edge.normal;
       }
-      add_transposed(-force, t, step_);
+      add_transposed(-force, row, step_);
     });
     matrix_.solve(step_);
-    for_each_frame([&](std::size_t t, std::span<Edge> edges) {
-      const glm::dvec2 p = moved(step_, t);
-      for (Edge& edge : edges) {
+    for_each_row([&](const Row& row, std::span<ZmpEdge> edges) {
+      const glm::dvec2 p = moved(step_, row);
+      for (ZmpEdge& edge : edges) {
         const auto [room_off, slack_off] = gaps(edge, target_gap, corrects);
         const double price_off = edge.push + edge.release - kPricePerM;
         edge.d_push = (glm::dot(edge.normal, p) + edge.offset) / edge.compliance;
@@ -301,7 +262,9 @@ class ZmpProgramme {
   }
 
   // Returns the residuals of both complementarities.
-  static std::array<double, 2> gaps(const Edge& edge, double target_gap, bool corrects) {
+  static std::array<double, 2> gaps(const ZmpEdge& edge,
+                                    double target_gap,
+                                    bool corrects) {
     const double room = edge.push * edge.room - target_gap;
     const double slack = edge.release * edge.slack - target_gap;
     if (!corrects) return {room, slack};
@@ -313,7 +276,7 @@ class ZmpProgramme {
     const auto limit = [&](double value, double step) {
       if (step < 0.0) out = std::min(out, -value / step);
     };
-    for (const Edge& edge : edges_) {
+    for (const ZmpEdge& edge : edges_) {
       limit(edge.room, edge.d_room);
       limit(edge.slack, edge.d_slack);
       limit(edge.push, edge.d_push);
@@ -322,9 +285,14 @@ class ZmpProgramme {
     return out;
   }
 
+  [[nodiscard]] bool has_step() const {
+    return std::all_of(
+        step_.begin(), step_.end(), [](double way) { return std::isfinite(way); });
+  }
+
   void advance(double share) {
     for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += share * step_[i];
-    for (Edge& edge : edges_) {
+    for (ZmpEdge& edge : edges_) {
       edge.room += share * edge.d_room;
       edge.slack += share * edge.d_slack;
       edge.push += share * edge.d_push;
@@ -333,12 +301,15 @@ class ZmpProgramme {
   }
 
   template <class Each>
-  void for_each_frame(const Each& each) {
+  void for_each_row(const Each& each) {
     for (std::size_t k = 0; k < edges_.size();) {
-      const std::size_t t = edges_[k].frame;
+      const Row row = row_of(edges_[k]);
       std::size_t end = k;
-      while (end < edges_.size() && edges_[end].frame == t) ++end;
-      each(t, std::span(edges_).subspan(k, end - k));
+      while (end < edges_.size() && edges_[end].frame == row.frame &&
+             edges_[end].of_zmp == row.of_zmp) {
+        ++end;
+      }
+      each(row, std::span(edges_).subspan(k, end - k));
       k = end;
     }
   }
@@ -349,7 +320,7 @@ class ZmpProgramme {
   std::vector<double> lever_s2_;  // Height over vertical force.
   std::vector<double> near_;      // Weights of displacements.
   std::vector<double> smooth_;    // Weights of second differences.
-  std::vector<Edge> edges_;       // In the order of frames.
+  std::vector<ZmpEdge> edges_;    // In the order of frames.
   std::vector<double> x_;         // Displacements, X and Z of each frame in turn.
   std::vector<double> step_;
   std::vector<double> gradient_;

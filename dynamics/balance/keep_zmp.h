@@ -23,6 +23,8 @@ struct KeepZmpOptions {
   double smoothness_s2 = 0.1;
   /// Factor of that weight in flight, where no force can act on the centre of mass.
   double flight_factor = 10.0;
+  /// Largest displacement along X and along Z, `displaced_xz_m` included.
+  double max_shift_m = 0.25;
   int max_iterations = 80;
 };
 

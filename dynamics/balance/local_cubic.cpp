@@ -48,13 +48,13 @@ LocalCubic::LocalCubic(std::size_t frame_count, FrameRate rate, double window_s)
   const double per_s = rate.hz / half;
   for (std::size_t at = 0; at < width; ++at) {
     const double t = scaled(at);
+    const bool has_cubic = is_cubic && at == half_;
     for (std::size_t i = 0; i < width; ++i) {
       const double v = scaled(i);
-      const double c1 = is_cubic ? (sum.s6 * v - sum.s4 * v * v * v) / odd : v / sum.s2;
+      const double c1 = has_cubic ? (sum.s6 * v - sum.s4 * v * v * v) / odd : v / sum.s2;
       const double c2 = (sum.s0 * v * v - sum.s2) / even;
-      const double c3 = is_cubic ? (sum.s2 * v * v * v - sum.s4 * v) / odd : 0.0;
-      slope_[at * width + i] = per_s * (c1 + 2.0 * c2 * t + 3.0 * c3 * t * t);
-      curvature_[at * width + i] = per_s * per_s * (2.0 * c2 + 6.0 * c3 * t);
+      slope_[at * width + i] = per_s * (c1 + 2.0 * c2 * t);
+      curvature_[at * width + i] = per_s * per_s * 2.0 * c2;
     }
   }
 }

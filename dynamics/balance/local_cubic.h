@@ -12,7 +12,8 @@ namespace marey::dynamics {
 
 /// Derivatives of a sampled curve by cubic polynomials that are fitted to windows
 /// (Savitzky & Golay 1964). A window is centred on its frame; within half a window of the
-/// ends it is the first or the last full window, and the fit is evaluated off its centre.
+/// ends it is the first or the last full window, and the polynomial is a parabola, whose
+/// derivatives vary less with noise where it is evaluated off its centre.
 /// A derivative is a weighted sum of samples, so the class also serves as a linear
 /// operator.
 class LocalCubic {

@@ -14,6 +14,8 @@
 #include "core/human/centre_of_mass.h"
 #include "core/pose.h"
 #include "retarget/balance/measure_balance.h"
+#include "retarget/contacts/contact_edges.h"
+#include "retarget/contacts/frame_marks.h"
 
 namespace marey::edit {
 namespace {
@@ -53,7 +55,41 @@ BodyStates body_states(std::span<const PointMass> masses, const Motion& motion) 
   return out;
 }
 
+// Adds the frames of other runs to runs.
+std::vector<FrameRange> either(const std::vector<FrameRange>& runs,
+                               const std::vector<FrameRange>& others,
+                               std::size_t frames) {
+  const std::vector<char> marks = retarget::frame_marks(runs, frames);
+  const std::vector<char> more = retarget::frame_marks(others, frames);
+  std::vector<FrameRange> out;
+  for (std::size_t t = 0; t < frames; ++t) {
+    if (marks[t] == 0 && more[t] == 0) continue;
+    const int frame = static_cast<int>(t);
+    if (out.empty() || out.back().last + 1 < frame) out.push_back({frame, frame});
+    out.back().last = frame;
+  }
+  return out;
+}
+
+// Returns the contacts from strike to toe-off, and the detected ones where they are
+// longer.
+Contacts loaded_contacts(const EditState& state) {
+  Contacts out = state.contacts;
+  retarget::move_to_edges(
+      retarget::find_contact_edges(state.motion, state.map, state.contacts),
+      state.motion.rate,
+      out);
+  const std::size_t frames = state.motion.poses.size();
+  for (std::size_t side = 0; side < 2; ++side) {
+    const FootContacts& detected = state.contacts.feet[side];
+    out.feet[side].heel = either(out.feet[side].heel, detected.heel, frames);
+    out.feet[side].ball = either(out.feet[side].ball, detected.ball, frames);
+  }
+  return out;
+}
+
 ZmpTrack track_of(const EditState& state,
+                  const Contacts& loaded,
                   std::span<const PointMass> masses,
                   const Motion& motion,
                   const BodyStates& body) {
@@ -63,7 +99,7 @@ ZmpTrack track_of(const EditState& state,
   out.reactions = dynamics::ground_reactions(
       body.com_in_world, body.momentum_per_kg_m2_s, motion.rate, options);
   for (retarget::BalanceFrame& frame :
-       retarget::balance_frames(motion, state.map, masses, state.contacts)) {
+       retarget::balance_frames(motion, state.map, masses, loaded)) {
     out.supports.push_back(std::move(frame.support_xz_m));
   }
   return out;
@@ -122,7 +158,8 @@ class RootShifter {
 ZmpTrack zmp_track(const EditState& state,
                    std::span<const PointMass> masses,
                    const Motion& motion) {
-  return track_of(state, masses, motion, body_states(masses, motion));
+  return track_of(
+      state, loaded_contacts(state), masses, motion, body_states(masses, motion));
 }
 
 ShiftZmpReport shift_zmp(const EditState& state,
@@ -130,6 +167,7 @@ ShiftZmpReport shift_zmp(const EditState& state,
                          const OpWeights& weights,
                          Motion& motion) {
   ShiftZmpReport report;
+  const Contacts loaded = loaded_contacts(state);
   RootShifter shifter(state, masses, weights);
   dynamics::KeepZmpOptions options;
   options.zmp.floor_height_m = standing_floor_m(state);
@@ -137,7 +175,7 @@ ShiftZmpReport shift_zmp(const EditState& state,
   std::vector<glm::dvec3> start_in_world;
   for (int round = 0; round <= kRounds; ++round) {
     const BodyStates body = body_states(masses, motion);
-    const ZmpTrack track = track_of(state, masses, motion, body);
+    const ZmpTrack track = track_of(state, loaded, masses, motion, body);
     report.after = dynamics::zmp_figures(track.reactions, track.supports);
     if (round == 0) {
       report.before = report.after;

@@ -19,8 +19,9 @@ struct ZmpTrack {
   std::vector<dynamics::GroundReaction> reactions;  ///< One per frame.
   std::vector<dynamics::SupportPolygon> supports;   ///< One per frame.
 };
-/// Computes both. The support areas are those of retarget::balance_frames(); the floor is
-/// at the height of the soles of standing feet. Linear in frames. Preconditions: those of
+/// Computes both. The support areas are those of retarget::balance_frames() with contacts
+/// from strike to toe-off (retarget::move_to_edges()); the floor is at the height of the
+/// soles of standing feet. Linear in frames. Preconditions: those of
 /// dynamics::centroidal_states(); the motion has the state's skeleton and frames.
 [[nodiscard]] ZmpTrack zmp_track(const EditState& state,
                                  std::span<const PointMass> masses,
