@@ -19,5 +19,5 @@ set(recordings_LAYERS base body edit takes motion gltf markers print session lib
 set(live_LAYERS udp vmc page web)
 set(app_LAYERS
   shell motion pages adapt convert print plan record check markers process retarget
-  live_chain view edit library/sources library/find library/labels library/export
+  live_chain view edit jump library/sources library/find library/labels library/export
   library/build library/check library/page library live inspect .)
