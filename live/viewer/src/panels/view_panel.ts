@@ -50,7 +50,7 @@ export class ViewPanel {
       ...SOURCES.map((source) => el('li', {title: MEANINGS[source]},
         el('span', {class: `swatch fill-${source}`, 'aria-hidden': 'true'}), ` ${source}`)),
       ...MARKS.map(([mark, name, title]) => el('li', {title},
-        el('span', {class: `mark mark-${mark}`, 'aria-hidden': 'true'}), ` ${name}`)));
+        el('span', {class: `balance-mark balance-${mark}`, 'aria-hidden': 'true'}), ` ${name}`)));
   }
 
   private layers(stage: Stage, changed: () => void): HTMLElement {

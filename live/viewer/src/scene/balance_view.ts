@@ -71,8 +71,8 @@ export class BalanceView {
     const plumb = new BufferGeometry();
     plumb.setAttribute('position', this.plumbEnds);
     this.plumb = new Line(plumb, this.line);
-    this.zmp = new Mesh(new RingGeometry(0.026, 0.038, 24), this.zmpMark);
-    this.zmpDot = new Mesh(new CircleGeometry(0.011, 16), this.zmpMark);
+    this.zmp = new Mesh(new RingGeometry(0.03, 0.044, 24), this.zmpMark);
+    this.zmpDot = new Mesh(new CircleGeometry(0.013, 16), this.zmpMark);
     for (const part of [this.zmp, this.zmpDot]) part.rotation.x = -Math.PI / 2;
     this.object.add(this.area, this.outline, this.plumb, this.centre, this.foot, this.zmp,
       this.zmpDot);
