@@ -98,7 +98,7 @@ TEST(PushReach, RefusesIfAndOnlyIfNoDenseForceExists) {
   EXPECT_GT(no, 100);
 }
 
-TEST(PushReach, AForceCanBeConstructedWhereItSaysYes) {
+TEST(PushReach, AForceCanBeConstructedForReachableMoments) {
   int built = 0;
   for (unsigned seed = 0; seed < 400; ++seed) {
     const Case c = random_case(seed);
@@ -138,7 +138,7 @@ TEST(PushReach, NamesTheObstacle) {
   EXPECT_EQ(find_obstacle({16.0, 4.0}, 0.5, 30.0), PushObstacle::kStrength);
 }
 
-TEST(PushReach, EndSpeedsAreThoseThatAreReachable) {
+TEST(PushReach, TheRangeOfEndSpeedsHoldsExactlyTheReachableOnes) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   int ranges = 0;
