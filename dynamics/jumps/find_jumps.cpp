@@ -201,7 +201,8 @@ void find_rest(const Search& search, const Jump* next, Jump& jump) {
   if (!jump.touchdown) return;
   const int needed = std::max(1, static_cast<int>(std::lround(kRest_s * search.hz())));
   const double relative = search.fall_m_s2 / kStandardGravity_m_s2;
-  const double end_s = next != nullptr ? next->takeoff.time_s : search.last_frame() / search.hz();
+  const double end_s =
+      next != nullptr ? next->takeoff.time_s : search.last_frame() / search.hz();
   const int last = static_cast<int>(std::floor(end_s * search.hz()));
   int run = 0;
   for (int frame = static_cast<int>(std::ceil(jump.touchdown->time_s * search.hz()));

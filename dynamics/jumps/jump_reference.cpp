@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/smooth_step.h"
 #include "core/signal/choose_smoothing.h"
 #include "core/signal/spline_curve.h"
 
@@ -27,12 +28,6 @@ constexpr double kLargestCutoff_hz = 10.0;
 constexpr double kFlightTaper_s = 0.04;
 /// A landing that the clip cuts counts if it lasts this long.
 constexpr double kLeastLanding_s = 0.15;
-
-/// Rises from 0 to 1 with zero first and second derivatives at both ends.
-double smooth_rise(double x) {
-  x = std::clamp(x, 0.0, 1.0);
-  return x * x * x * (10.0 + x * (6.0 * x - 15.0));
-}
 
 /// Accelerations of the centre of mass as functions of time.
 std::vector<SplineCurve> acceleration_curves(const BodyTrack& track) {
@@ -94,9 +89,9 @@ SupportReference support_reference(const std::vector<SplineCurve>& acceleration,
       if (axis == 1) {
         value = std::max(0.0, value + gravity_m_s2);
       }
-      if (span.from_flight) value *= smooth_rise(duration_s * share / kFlightTaper_s);
+      if (span.from_flight) value *= smooth_step(duration_s * share / kFlightTaper_s);
       if (span.to_flight) {
-        value *= smooth_rise(duration_s * (1.0 - share) / kFlightTaper_s);
+        value *= smooth_step(duration_s * (1.0 - share) / kFlightTaper_s);
       }
       if (axis == 1) {
         out.peak_g = std::max(out.peak_g, value / gravity_m_s2);
