@@ -7,8 +7,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/transform.h"
 #include "core/base/smooth_step.h"
+#include "core/transform.h"
 
 namespace marey::retarget {
 namespace {

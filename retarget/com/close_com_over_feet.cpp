@@ -10,8 +10,8 @@
 #include <glm/matrix.hpp>
 
 #include "core/base/assert.h"
-#include "core/human/centre_of_mass.h"
 #include "core/base/smooth_step.h"
+#include "core/human/centre_of_mass.h"
 
 namespace marey::retarget {
 namespace {
@@ -107,12 +107,9 @@ void ComCloser::try_at(glm::dvec3& moved_m, Try& out) const {
       if (legs_[side].hold() <= 0.0) continue;
       out.ankles[side] = legs_[side].ankle_over_foot(moved_m);
       const AnkleOverFoot& ankle = out.ankles[side];
-<<<<<<< HEAD
-      if (ankle.short_m == 0.0) continue;
-      const double give_m = legs_[side].gives_way() * ankle.short_m;
-      if (k == 0) out.short_leg_m = std::max(out.short_leg_m, give_m);
-=======
-      const double share = smooth_step((hold - kGivesWayFrom) / (1.0 - kGivesWayFrom));
+      const double hold = legs_[side].hold();
+      const double share = legs_[side].root_gives_way() *
+                           smooth_step((hold - kGivesWayFrom) / (1.0 - kGivesWayFrom));
       if (ankle.short_m == 0.0 || share <= 0.0) continue;
       if (k == 0) {
         kept_short_m[side] = (1.0 - share) * ankle.short_m;
@@ -121,7 +118,6 @@ void ComCloser::try_at(glm::dvec3& moved_m, Try& out) const {
       double give_m = ankle.short_m - kept_short_m[side];
       if (give_m * ankle.short_m <= 0.0) continue;
       give_m /= hold;
->>>>>>> follow
       largest_m = std::max(largest_m, std::abs(give_m));
       moved_m += give_m * glm::normalize(ankle.ankle_from_hip);
     }
