@@ -24,7 +24,6 @@
 namespace marey::edit {
 namespace {
 
-using FootContacts;
 using retarget::FootPlace;
 using PlannedFeet = std::array<std::vector<std::optional<FootPlace>>, 2>;
 
