@@ -15,8 +15,8 @@
 namespace marey::edit {
 
 struct ShiftZmpReport {
-  dynamics::ZmpFigures before{};  ///< Of the frames with a weight above 0.
-  dynamics::ZmpFigures after{};   ///< Of the same frames.
+  dynamics::ZmpFigures before{};  ///< Frames with a weight above 0.
+  dynamics::ZmpFigures after{};   ///< The same frames.
   double max_shift_m = 0.0;       ///< Largest horizontal displacement of the root.
   double lowered_m = 0.0;         ///< Largest distance by which the root was lowered.
   double missed_m = 0.0;          ///< Largest distance of a standing foot from its place.

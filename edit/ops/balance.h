@@ -19,8 +19,8 @@ namespace marey::edit {
 /// support area (shift_zmp()); also of walks and jumps. Only standing feet keep their
 /// places. Figures: zmp_outside_before_frames and zmp_outside_frames (loaded frames with
 /// support whose zero moment point is outside), zmp_loaded_frames, max_shift_mm,
-/// lowered_mm, displaced_mm. A finding tells the frame that is furthest outside, if one
-/// remains, and one the feet that leave their places.
+/// lowered_mm, displaced_mm. One finding names the frame that remains
+/// furthest outside, another the feet that leave their places.
 ///
 /// The shift acts by op_weights(): frames beyond span and fades keep their pose to the
 /// bit, and so does a motion that needs no shift. Figures: outside_before_frames and
