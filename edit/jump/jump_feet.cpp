@@ -21,6 +21,9 @@ constexpr double kBearsWithin_s = 0.15;
 constexpr double kFlightFade_s = 0.06;
 /// Fade of the hold beside other stances.
 constexpr double kSwingFade_s = 0.16;
+/// Time beside a flight in which the centre of mass comes before the feet: it is on its
+/// plan when the flight begins and ends.
+constexpr double kGiveWay_s = 0.08;
 /// Time after touch-down in which heels may still be up.
 constexpr double kHeelDown_s = 0.15;
 
@@ -77,8 +80,10 @@ std::array<std::vector<retarget::FootGoal>, 2> jump_feet(const EditState& state,
   const auto count = static_cast<std::size_t>(state.frame_count());
   const double hz = state.motion.rate.hz;
   const double takeoff_s = plan.takeoff().time_s;
+  const double duration_s = state.duration_s();
   std::vector<glm::dvec3> displaced(count, glm::dvec3(0.0));
   std::vector<double> heel(count, 0.0);
+  std::vector<double> gives_way(count, 1.0);
   for (std::size_t t = 0; t < count; ++t) {
     const double time_s = static_cast<double>(t) / hz;
     const double push_s = takeoff_s - plan.lowest_s();
@@ -88,6 +93,10 @@ std::array<std::vector<retarget::FootGoal>, 2> jump_feet(const EditState& state,
     } else {
       heel[t] = 1.0;
     }
+    const double landing_s = plan.touchdown() ? plan.touchdown()->time_s : duration_s;
+    gives_way[t] = time_s < takeoff_s
+                       ? retarget::smooth_step((takeoff_s - time_s) / kGiveWay_s)
+                       : retarget::smooth_step((time_s - landing_s) / kGiveWay_s);
     if (!plan.touchdown()) continue;
     const double touchdown_s = plan.touchdown()->time_s;
     displaced[t] =
@@ -104,8 +113,10 @@ std::array<std::vector<retarget::FootGoal>, 2> jump_feet(const EditState& state,
     for (std::size_t t = 0; t < count; ++t) {
       hold[t] = hold_at(stances, static_cast<double>(t) / hz);
     }
-    out[side] = retarget::foot_goals(
-        state.motion, state.map, static_cast<int>(side), {displaced, hold, heel});
+    out[side] = retarget::foot_goals(state.motion,
+                                     state.map,
+                                     static_cast<int>(side),
+                                     {displaced, hold, heel, gives_way});
   }
   return out;
 }

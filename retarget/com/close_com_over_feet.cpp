@@ -99,12 +99,11 @@ void ComCloser::try_at(glm::dvec3& moved_m, Try& out) const {
   for (int k = 0; k < kMaxGiveWays; ++k) {
     double largest_m = 0.0;
     for (std::size_t side = 0; side < 2; ++side) {
-      const double hold = legs_[side].hold();
-      if (hold <= 0.0) continue;
+      if (legs_[side].hold() <= 0.0) continue;
       out.ankles[side] = legs_[side].ankle_over_foot(moved_m);
       const AnkleOverFoot& ankle = out.ankles[side];
       if (ankle.short_m == 0.0) continue;
-      const double give_m = hold * ankle.short_m;
+      const double give_m = legs_[side].gives_way() * ankle.short_m;
       if (k == 0) out.short_leg_m = std::max(out.short_leg_m, give_m);
       largest_m = std::max(largest_m, std::abs(give_m));
       moved_m += give_m * glm::normalize(ankle.ankle_from_hip);
