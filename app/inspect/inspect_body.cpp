@@ -140,9 +140,8 @@ Result<Json> inspect_body(const std::filesystem::path& file,
         {"ignored_translation_m", kept.ignored_translation_m}};
   }
   if (body && kept.has_motion) {
-    const Motion& motion = body->raw.motion;
-    if (const auto jumps = find_motion_jumps(motion)) {
-      out["jumps"] = jumps_json(*jumps, motion.rate);
+    if (const auto jumps = find_motion_jumps(body->raw.motion)) {
+      out["jumps"] = jumps_json(*jumps);
     }
   }
   out["body"] = body ? describe(*body) : Json{{"declined", body.error().message()}};

@@ -40,7 +40,7 @@ const char* start_word(dynamics::PushStart start) {
   return "unknown";
 }
 
-JumpJson jump_object(const dynamics::Jump& jump, int number, FrameRate rate) {
+JumpJson jump_object(const dynamics::Jump& jump, int number) {
   const auto& end = jump.touchdown;
   const auto xz = [](const glm::dvec3& p) { return glm::dvec2(p.x, p.z); };
   const auto null_or = [&](double value) {
@@ -68,7 +68,7 @@ JumpJson jump_object(const dynamics::Jump& jump, int number, FrameRate rate) {
       {"flight_rms_mm", rounded_json(1e3 * jump.flight_rms_m)},
       {"takeoff_source", name(jump.takeoff_source)},
       {"touchdown_source", end ? JumpJson(name(jump.landing_source)) : JumpJson()},
-      {"findings", findings_json(assess_jump(jump, number, rate))}};
+      {"findings", findings_json(findings_of_jump_number(jump, number))}};
 }
 
 std::string seconds_text(const JumpJson& value) {
@@ -90,11 +90,11 @@ std::string jump_line(const JumpJson& jump) {
 
 }  // namespace
 
-JumpJson jumps_json(std::span<const dynamics::Jump> jumps, FrameRate rate) {
+JumpJson jumps_json(std::span<const dynamics::Jump> jumps) {
   JumpJson out = JumpJson::array();
   int number = 0;
   for (const dynamics::Jump& jump : jumps) {
-    out.push_back(jump_object(jump, ++number, rate));
+    out.push_back(jump_object(jump, ++number));
   }
   return out;
 }

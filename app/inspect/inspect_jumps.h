@@ -7,13 +7,10 @@
 #include "dynamics/jumps/jump.h"
 #include <nlohmann/json.hpp>
 
-#include "core/base/time.h"
-
 namespace marey::app {
 
 /// Returns the list of jumps of a motion for `marey inspect` (docs/formats/inspect.md).
-[[nodiscard]] nlohmann::ordered_json jumps_json(std::span<const dynamics::Jump> jumps,
-                                                FrameRate rate);
+[[nodiscard]] nlohmann::ordered_json jumps_json(std::span<const dynamics::Jump> jumps);
 
 /// Returns the content of a motion with its jumps in readable form, one line per jump and
 /// per finding.

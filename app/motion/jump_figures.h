@@ -19,10 +19,9 @@ namespace marey::app {
 [[nodiscard]] std::optional<std::vector<dynamics::Jump>> find_motion_jumps(
     const Motion& motion);
 
-/// Returns the findings of a jump, among them a fall that differs from standard gravity
-/// by more than 1 m/s^2, and a rate below 50 Hz. `number` is the jump's, from 1.
-[[nodiscard]] std::vector<Finding> assess_jump(const dynamics::Jump& jump,
-                                               int number,
-                                               FrameRate rate);
+/// Returns the findings of a jump, with "jump N" as the place. They state among others a
+/// captured fall that differs from gravity. `number` is the jump's, from 1.
+[[nodiscard]] std::vector<Finding> findings_of_jump_number(const dynamics::Jump& jump,
+                                                           int number);
 
 }  // namespace marey::app
