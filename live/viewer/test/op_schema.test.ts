@@ -68,8 +68,9 @@ function checkType(field: Field, type: string, place: string): void {
     assert.match(type, /^instants?$/, place);
   } else if (field.kind === 'rotation') {
     assert.equal(type, 'rotation', place);
-  } else if (field.kind === 'number' && /^[0-9]/.test(type)) {
-    assert.equal(type, `${field.min} to ${field.max}`, place);
+  } else if (field.kind === 'number' && /^-?[0-9]/.test(type)) {
+    const range = `${field.min} to ${field.max}`;
+    assert.ok(type === range || type === `${range} ${field.unit}`, place);
   } else if (field.kind === 'number') {
     assert.equal(type, field.unit, place);
   } else if (field.kind === 'vector') {

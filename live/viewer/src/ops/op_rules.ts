@@ -200,7 +200,7 @@ const CHECKS: Record<string, (op: OpKeys, problems: Problems) => void> = {
   jump: (op, problems) => {
     for (const [key, others] of JUMP_EXCLUDES) {
       const other = others.find((one) => one in op);
-      if (key in op && other) problems.set(key, `Excludes “${labelOf('jump', other)}”`);
+      if (key in op && other && !problems.has(other)) problems.set(key, `Excludes “${labelOf('jump', other)}”`);
     }
     if ('lowest' in op && op.law !== 'thesis') problems.set('lowest', 'Needs the law “thesis”');
   },
