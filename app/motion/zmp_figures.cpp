@@ -9,6 +9,9 @@
 #include "edit/balance/zmp_track.h"
 #include <nlohmann/json.hpp>
 
+#include "retarget/body/place_masses.h"
+#include "retarget/contacts/detect_contacts.h"
+
 namespace marey::app {
 namespace {
 
@@ -32,6 +35,14 @@ MotionZmp motion_zmp(const Motion& motion,
                           track.reactions[t].zmp_xz_m});
   }
   return out;
+}
+
+std::optional<MotionZmp> find_motion_zmp(const Motion& motion) {
+  const auto map = retarget::map_body(motion.skeleton);
+  if (!map || motion.poses.size() < 2) return std::nullopt;
+  const auto masses = retarget::place_masses(motion.skeleton, *map, {});
+  if (!masses) return std::nullopt;
+  return motion_zmp(motion, *map, retarget::detect_contacts(motion, *map), *masses);
 }
 
 nlohmann::ordered_json zmp_json(const dynamics::ZmpFigures& figures) {

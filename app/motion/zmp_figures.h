@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,10 @@ struct MotionZmp {
                                    const retarget::BodyMap& map,
                                    const Contacts& contacts,
                                    std::span<const PointMass> masses);
+
+/// Applies motion_zmp() with detected contacts and the masses of de Leva's table.
+/// nullopt: the body has no legs or masses, or the motion fewer than two frames.
+[[nodiscard]] std::optional<MotionZmp> find_motion_zmp(const Motion& motion);
 
 /// Returns the figures for reports: loaded_frames, supported_frames, outside_frames,
 /// inside_percent, worst_outside_mm, worst_frame (absent if no point is outside).
