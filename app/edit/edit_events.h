@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "edit/find/find_loops.h"
-#include "edit/ops/jump_graph.h"
+#include "edit/jump/jump_graph.h"
 #include "edit/render.h"
 
 #include "app/edit/edit_inputs.h"

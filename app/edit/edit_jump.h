@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "edit/ops/jump_graph.h"
+#include "edit/jump/jump_graph.h"
 
 #include "app/edit/edit_events.h"
 #include "core/base/result.h"

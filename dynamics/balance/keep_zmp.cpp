@@ -18,8 +18,10 @@
 namespace marey::dynamics {
 namespace {
 
-// Price of a metre outside, per frame, against square metres of displacement.
-constexpr double kPricePerM = 1e4;
+// Factors of the price of a distance outside. The first one leaves no frame outside if
+// that is possible; the others are tried in turn where it is not, because large
+// displacements would not help.
+constexpr std::array<double, 3> kPriceFactors{1.0, 0.3, 0.1};
 constexpr double kPinned = 1e10;
 constexpr double kMinFreedom = 1e-3;
 // Size of the first step of the interior-point method, and of its last. [m]
@@ -34,10 +36,12 @@ constexpr double kMet_m = 1e-7;
 // The quadratic programme and its state.
 class ZmpProgramme {
  public:
-  ZmpProgramme(const KeepZmpInput& input, const KeepZmpOptions& options)
+  ZmpProgramme(const KeepZmpInput& input, const KeepZmpOptions& options, double price_m)
       : input_(input),
+        price_m_(price_m),
         frames_(input.com_in_world.size()),
         derive_(frames_, input.rate, options.zmp.smoothing_s),
+        limited_(frames_, 0),
         x_(2 * frames_, 0.0),
         step_(2 * frames_, 0.0),
         gradient_(2 * frames_, 0.0),
@@ -54,9 +58,10 @@ class ZmpProgramme {
       if (freedom <= kMinFreedom) continue;
       add_shift_limits(t, options.max_shift_m, edges_);
       if (!reaction.zmp_xz_m) continue;
-      if (!add_support_edges(t, input.supports[t], options.margin_m, edges_)) {
-        ++without_area_;
-      }
+      const bool has_area =
+          add_support_edges(t, input.supports[t], options.margin_m, edges_);
+      limited_[t] = has_area ? 1 : 0;
+      if (!has_area) ++without_area_;
     }
   }
 
@@ -94,6 +99,8 @@ class ZmpProgramme {
   [[nodiscard]] glm::dvec2 zmp(std::size_t t) const {
     return *input_.reactions[t].zmp_xz_m + moved(x_, {t, true, lever_s2_[t]});
   }
+  // Returns true if the zero moment point of the frame has a place where it should be.
+  [[nodiscard]] bool is_limited(std::size_t t) const { return limited_[t] != 0; }
   [[nodiscard]] int without_area() const { return without_area_; }
 
  private:
@@ -147,7 +154,7 @@ class ZmpProgramme {
       const double room_m = edge.bound_m - glm::dot(edge.normal, reference(row_of(edge)));
       edge.room = std::max(room_m, kFirstSlack_m);
       edge.push = kFirstGap / edge.room;
-      edge.release = kPricePerM - edge.push;
+      edge.release = price_m_ - edge.push;
       edge.slack = kFirstGap / edge.release;
     }
   }
@@ -239,7 +246,7 @@ class ZmpProgramme {
       glm::dvec2 force(0.0);
       for (ZmpEdge& edge : edges) {
         const auto [room_off, slack_off] = gaps(edge, target_gap, corrects);
-        const double price_off = edge.push + edge.release - kPricePerM;
+        const double price_off = edge.push + edge.release - price_m_;
         edge.offset = edge.residual +
                       (slack_off - edge.slack * price_off) / edge.release -
                       room_off / edge.push;
@@ -252,7 +259,7 @@ class ZmpProgramme {
       const glm::dvec2 p = moved(step_, row);
       for (ZmpEdge& edge : edges) {
         const auto [room_off, slack_off] = gaps(edge, target_gap, corrects);
-        const double price_off = edge.push + edge.release - kPricePerM;
+        const double price_off = edge.push + edge.release - price_m_;
         edge.d_push = (glm::dot(edge.normal, p) + edge.offset) / edge.compliance;
         edge.d_release = -price_off - edge.d_push;
         edge.d_room = (-room_off - edge.room * edge.d_push) / edge.push;
@@ -315,19 +322,46 @@ class ZmpProgramme {
   }
 
   const KeepZmpInput& input_;
+  double price_m_ = 0.0;
   std::size_t frames_ = 0;
   LocalCubic derive_;
   std::vector<double> lever_s2_;  // Height over vertical force.
   std::vector<double> near_;      // Weights of displacements.
-  std::vector<double> smooth_;    // Weights of second differences.
-  std::vector<ZmpEdge> edges_;    // In the order of frames.
-  std::vector<double> x_;         // Displacements, X and Z of each frame in turn.
+  std::vector<char> limited_;
+  std::vector<double> smooth_;  // Weights of second differences.
+  std::vector<ZmpEdge> edges_;  // In the order of frames.
+  std::vector<double> x_;       // Displacements, X and Z of each frame in turn.
   std::vector<double> step_;
   std::vector<double> gradient_;
   BandedCholesky matrix_;
   double residual_ = 0.0;
   int without_area_ = 0;
 };
+
+// Returns the displacement of a programme and the frames that it leaves outside.
+KeepZmpResult solved(const KeepZmpInput& input,
+                     const KeepZmpOptions& options,
+                     double price_m) {
+  KeepZmpResult out;
+  const std::size_t frames = input.com_in_world.size();
+  out.shift_xz_m.assign(frames, glm::dvec2(0.0));
+  ZmpProgramme programme(input, options, price_m);
+  out.without_area_frames = programme.without_area();
+  if (!programme.is_met()) out.iterations = programme.solve(options.max_iterations);
+  for (std::size_t t = 0; t < frames; ++t) {
+    out.shift_xz_m[t] = programme.shift(t);
+    const glm::dvec2 total =
+        out.shift_xz_m[t] +
+        (input.displaced_xz_m.empty() ? glm::dvec2(0.0) : input.displaced_xz_m[t]);
+    out.max_shift_m = std::max(out.max_shift_m, glm::length(total));
+    if (!programme.is_limited(t)) continue;
+    const auto outside_m = distance_outside(input.supports[t], programme.zmp(t));
+    if (!outside_m || *outside_m <= kMet_m) continue;
+    out.unmet_frames.push_back(static_cast<int>(t));
+    out.worst_unmet_m = std::max(out.worst_unmet_m, *outside_m);
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -338,18 +372,10 @@ KeepZmpResult keep_zmp(const KeepZmpInput& input, const KeepZmpOptions& options)
   MAREY_ASSERT(input.displaced_xz_m.empty() || input.displaced_xz_m.size() == frames);
   MAREY_ASSERT(input.freedom.empty() || input.freedom.size() == frames);
   KeepZmpResult out;
-  out.shift_xz_m.assign(frames, glm::dvec2(0.0));
-  ZmpProgramme programme(input, options);
-  out.without_area_frames = programme.without_area();
-  if (programme.is_met()) return out;
-  out.iterations = programme.solve(options.max_iterations);
-  for (std::size_t t = 0; t < frames; ++t) {
-    out.shift_xz_m[t] = programme.shift(t);
-    if (!input.reactions[t].zmp_xz_m || input.supports[t].size() < 3) continue;
-    const auto outside_m = distance_outside(input.supports[t], programme.zmp(t));
-    if (!outside_m || *outside_m <= kMet_m) continue;
-    out.unmet_frames.push_back(static_cast<int>(t));
-    out.worst_unmet_m = std::max(out.worst_unmet_m, *outside_m);
+  for (const double factor : kPriceFactors) {
+    out = solved(input, options, factor * options.price_m);
+    out.price_m = factor * options.price_m;
+    if (out.unmet_frames.empty() || out.max_shift_m <= options.modest_shift_m) break;
   }
   return out;
 }

@@ -25,6 +25,12 @@ struct KeepZmpOptions {
   double flight_factor = 10.0;
   /// Largest displacement along X and along Z, `displaced_xz_m` included.
   double max_shift_m = 0.25;
+  /// Price of a metre outside, per frame, against square metres of displacement. The
+  /// default leaves no frame outside if that is possible.
+  double price_m = 100.0;
+  /// Larger displacements than this are made only if they leave no frame outside;
+  /// otherwise the price is reduced, twice at most.
+  double modest_shift_m = 0.15;
   int max_iterations = 80;
 };
 
@@ -50,6 +56,8 @@ struct KeepZmpResult {
   double worst_unmet_m = 0.0;  ///< Largest distance outside among these.
   /// Loaded frames without a support area, or with a point or a line; not considered.
   int without_area_frames = 0;
+  double max_shift_m = 0.0;  ///< Largest displacement, `displaced_xz_m` included.
+  double price_m = 0.0;      ///< Price at which the displacement was computed.
   int iterations = 0;
 };
 
@@ -60,7 +68,7 @@ struct KeepZmpResult {
 /// gravity)) * second derivative of d, with the derivative of ground_reactions(), so the
 /// problem is a convex quadratic programme. It is solved for both axes at once by an
 /// interior-point method whose steps are solved by a band matrix. Distances to the areas
-/// that cannot be overcome are kept small in sum and reported.
+/// that cannot be overcome within max_shift_m are kept small in sum and reported.
 ///
 /// The displacement is 0 everywhere if all points are inside already. Deterministic.
 /// Linear in frames; quadratic in frames per window of derivatives.

@@ -51,7 +51,7 @@ class FlightTurn {
 
  private:
   struct OwnTurn {
-    glm::dmat3 inertia_kg_m2{0.0};                     ///< Of one mass, as captured.
+    glm::dmat3 inertia_kg_m2{0.0};                     ///< World axes, as captured.
     glm::dquat after_from_before{1.0, 0.0, 0.0, 0.0};  ///< Between the neighbours.
   };
   /// Rotation vector of a frame as an affine function of the unknowns: the rotation of

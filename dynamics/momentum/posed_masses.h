@@ -19,7 +19,7 @@ namespace marey::dynamics {
 /// Masses of a body in one posture. World axes.
 struct PosedMasses {
   glm::dvec3 com_in_world{0.0};
-  std::vector<glm::dvec3> from_com_m;       ///< Of each mass.
+  std::vector<glm::dvec3> from_com_m;       ///< Centre of each mass.
   std::vector<glm::dquat> world_from_mass;  ///< Rotation of each mass.
 };
 

@@ -190,6 +190,8 @@ ShiftZmpReport shift_zmp(const EditState& state,
                                                              displaced,
                                                              weights.weight},
                                                             options);
+    // A price that was too high stays so.
+    options.price_m = step.price_m;
     std::vector<glm::dvec2> target(motion.poses.size());
     double largest_m = 0.0;
     for (std::size_t t = 0; t < target.size(); ++t) {

@@ -17,6 +17,7 @@
 #include "core/pose.h"
 #include "retarget/base/smooth_step.h"
 #include "retarget/body/normalized_skeleton.h"
+#include "retarget/com/foot_goals.h"
 #include "retarget/contacts/frame_marks.h"
 #include "retarget/feet/adapt_to_ground.h"
 #include "retarget/feet/ground_legs.h"
@@ -309,14 +310,7 @@ PlantReport set_feet(EditState& state,
 }
 
 std::vector<FootPlace> foot_places(const EditState& state, int side) {
-  std::vector<FootPlace> out;
-  out.reserve(state.motion.poses.size());
-  PosturesOf postures(state);
-  for (std::size_t t = 0; t < state.motion.poses.size(); ++t) {
-    (void)postures.at(t);
-    out.push_back(postures.foot(side));
-  }
-  return out;
+  return retarget::foot_places(state.motion, state.map, side);
 }
 
 SlideFigures measure_slide(const EditState& state) {

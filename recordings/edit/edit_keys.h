@@ -204,12 +204,12 @@ template <class V>
 void visit_keys(V& keys, KeysOf<JumpOp> /*of*/) {
   keys.integer("jump", &JumpOp::jump, kJumpNumber);
   keys.number("apex_m", &JumpOp::apex_m, kJumpApex);
-  keys.number("apex_by_m", &JumpOp::apex_by_m, kJumpChange);
-  keys.number("airtime_s", &JumpOp::airtime_s, kJumpTime);
+  keys.number("apex_by_m", &JumpOp::apex_by_m, kJumpRaise);
+  keys.number("airtime_s", &JumpOp::airtime_s, kJumpAirtime);
   keys.number("length_m", &JumpOp::length_m, kJumpLength);
   keys.place("land_m", &JumpOp::landing_in_world);
-  keys.number("box_m", &JumpOp::box_m, kJumpChange);
-  keys.number("push_s", &JumpOp::push_s, kJumpTime);
+  keys.number("box_m", &JumpOp::box_m, kJumpBox);
+  keys.number("push_s", &JumpOp::push_s, kJumpPush);
   keys.moment("push_start", &JumpOp::push_start);
   keys.choice("law", &JumpOp::law, kPushLaws);
   keys.part("lowest", &JumpOp::lowest);

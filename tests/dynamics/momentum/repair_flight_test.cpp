@@ -313,7 +313,7 @@ TEST(KeepAngularMomentum, RepairsAMirroredFlightAlike) {
   }
 }
 
-TEST(KeepAngularMomentum, DeclinesALargeTurnAndSaysSo) {
+TEST(KeepAngularMomentum, DeclinesALargeTurnAndReportsIt) {
   Dice dice(6001);
   MadeFlight flight = made_flight(dice, {.frames = 60, .max_swing_rad = 1.5});
   const MadeFlight before = flight;

@@ -271,7 +271,7 @@ TEST(PartInertia, StaysPossibleForPartsFarApart) {
   EXPECT_NEAR(part[1][1], whole[1][1], 1e-12);
 }
 
-TEST(InertiaPerKg, OfASegmentWithoutLengthIsZero) {
+TEST(InertiaPerKg, IsZeroWithoutALength) {
   EXPECT_EQ(inertia_per_kg({0.3, 0.3, 0.1}, {}), glm::dmat3(0.0));
 }
 
