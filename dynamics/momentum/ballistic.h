@@ -36,9 +36,9 @@ struct BallisticOptions {
   double gravity_m_s2 = 9.81;  ///< Downwards.
   bool keep_momentum = true;   ///< Also make the angular momentum constant.
   MomentumOptions momentum{};
-  /// Other ends of the parabola: of a fit to the whole flight (a Jump's states) at these
-  /// two poses. Then the first and the last pose are displaced too, by some millimetres,
-  /// and the caller continues that displacement into the support.
+  /// Other ends of the parabola, as that of a Jump has them at these two poses. Then the
+  /// first and the last pose are displaced too, by some millimetres, and the caller
+  /// continues that displacement into the support.
   std::optional<BallisticEnds> ends{};
 };
 
