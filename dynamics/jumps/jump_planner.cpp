@@ -38,6 +38,15 @@ constexpr double kKnotGap_s = 0.02;
 /// Direction of a jump that does not travel is ahead of the feet; here +Z. [m]
 constexpr double kInPlace_m = 0.02;
 
+/// Returns the factor of durations between gravities. A capture that falls at nearly the
+/// right rate keeps its times; a motion that was scaled to another body is played at the
+/// rate at which that body falls.
+double time_scale(double captured_m_s2, double wanted_m_s2) {
+  constexpr double kMostOff = 1.34;
+  const double ratio = captured_m_s2 / wanted_m_s2;
+  return ratio < kMostOff && ratio > 1.0 / kMostOff ? 1.0 : std::sqrt(ratio);
+}
+
 std::string metres(double value_m) {
   return format_text("%.3f m", value_m);
 }
@@ -60,8 +69,8 @@ JumpPlanner::JumpPlanner(const JumpReference& reference,
       strength_m_s2_(options.gravity_m_s2 *
                      traits.strength_g.value_or(std::max(
                          kLeastStrength_g, kStrengthOfPeak * reference.push().peak_g))),
-      push_s_(wish.push_s.value_or(reference.push().duration_s() *
-                                   std::sqrt(jump_.gravity_m_s2 / options.gravity_m_s2))),
+      time_scale_(time_scale(jump_.gravity_m_s2, options.gravity_m_s2)),
+      push_s_(wish.push_s.value_or(reference.push().duration_s() * time_scale_)),
       takeoff_(jump_.takeoff) {}
 
 double JumpPlanner::above_floor_m(double height_m) const {
@@ -136,8 +145,15 @@ Result<double> JumpPlanner::takeoff_speed() const {
     if (!speed_m_s) speed_m_s = by_time_m_s;
   }
   if (speed_m_s) return *speed_m_s;
-  // The captured rise, under the gravity of the plan.
-  return jump_.takeoff.velocity_m_s.y * std::sqrt(gravity_m_s2_ / jump_.gravity_m_s2);
+  if (time_scale_ != 1.0 || !touchdown_ || moved_m_.y != 0.0) {
+    // The captured rise, under the gravity of the plan.
+    return jump_.takeoff.velocity_m_s.y * std::sqrt(gravity_m_s2_ / jump_.gravity_m_s2);
+  }
+  if (gravity_m_s2_ == jump_.gravity_m_s2) return jump_.takeoff.velocity_m_s.y;
+  // The captured airtime: the capture falls at a wrong rate.
+  const double airtime_s = jump_.touchdown->time_s - jump_.takeoff.time_s;
+  return (touchdown_->p_in_world.y - start_m) / airtime_s +
+         0.5 * gravity_m_s2_ * airtime_s;
 }
 
 Status JumpPlanner::solve_flight() {

@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/human/contacts.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/com/foot_goals.h"
 
 namespace marey::edit {
@@ -21,6 +21,9 @@ constexpr double kBearsWithin_s = 0.15;
 constexpr double kFlightFade_s = 0.06;
 /// Fade of the hold beside other stances.
 constexpr double kSwingFade_s = 0.16;
+/// Time beside a flight in which the centre of mass comes before the feet: it is on its
+/// plan when the flight begins and ends.
+constexpr double kGiveWay_s = 0.08;
 /// Time after touch-down in which heels may still be up.
 constexpr double kHeelDown_s = 0.15;
 
@@ -61,9 +64,9 @@ double hold_at(const std::vector<Stance>& stances, double time_s) {
     double share = 1.0;
     if (time_s < stance.from_s) {
       share =
-          retarget::smooth_step(1.0 - (stance.from_s - time_s) / stance.fade_before_s);
+          smooth_step(1.0 - (stance.from_s - time_s) / stance.fade_before_s);
     } else if (time_s > stance.to_s) {
-      share = retarget::smooth_step(1.0 - (time_s - stance.to_s) / stance.fade_after_s);
+      share = smooth_step(1.0 - (time_s - stance.to_s) / stance.fade_after_s);
     }
     hold = std::max(hold, share);
   }
@@ -77,24 +80,30 @@ std::array<std::vector<retarget::FootGoal>, 2> jump_feet(const EditState& state,
   const auto count = static_cast<std::size_t>(state.frame_count());
   const double hz = state.motion.rate.hz;
   const double takeoff_s = plan.takeoff().time_s;
+  const double duration_s = state.duration_s();
   std::vector<glm::dvec3> displaced(count, glm::dvec3(0.0));
   std::vector<double> heel(count, 0.0);
+  std::vector<double> gives_way(count, 1.0);
   for (std::size_t t = 0; t < count; ++t) {
     const double time_s = static_cast<double>(t) / hz;
     const double push_s = takeoff_s - plan.lowest_s();
     if (time_s <= takeoff_s) {
       heel[t] =
-          retarget::smooth_step((time_s - plan.lowest_s()) / std::max(push_s, 1.0 / hz));
+          smooth_step((time_s - plan.lowest_s()) / std::max(push_s, 1.0 / hz));
     } else {
       heel[t] = 1.0;
     }
+    const double landing_s = plan.touchdown() ? plan.touchdown()->time_s : duration_s;
+    gives_way[t] = time_s < takeoff_s
+                       ? smooth_step((takeoff_s - time_s) / kGiveWay_s)
+                       : smooth_step((time_s - landing_s) / kGiveWay_s);
     if (!plan.touchdown()) continue;
     const double touchdown_s = plan.touchdown()->time_s;
     displaced[t] =
-        retarget::smooth_step((time_s - takeoff_s) / (touchdown_s - takeoff_s)) *
+        smooth_step((time_s - takeoff_s) / (touchdown_s - takeoff_s)) *
         plan.landing_moved_m();
     if (time_s > touchdown_s) {
-      heel[t] = 1.0 - retarget::smooth_step((time_s - touchdown_s) / kHeelDown_s);
+      heel[t] = 1.0 - smooth_step((time_s - touchdown_s) / kHeelDown_s);
     }
   }
   std::array<std::vector<retarget::FootGoal>, 2> out;
@@ -104,8 +113,10 @@ std::array<std::vector<retarget::FootGoal>, 2> jump_feet(const EditState& state,
     for (std::size_t t = 0; t < count; ++t) {
       hold[t] = hold_at(stances, static_cast<double>(t) / hz);
     }
-    out[side] = retarget::foot_goals(
-        state.motion, state.map, static_cast<int>(side), {displaced, hold, heel});
+    out[side] = retarget::foot_goals(state.motion,
+                                     state.map,
+                                     static_cast<int>(side),
+                                     {displaced, hold, heel, gives_way});
   }
   return out;
 }
