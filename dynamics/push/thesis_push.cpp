@@ -75,16 +75,19 @@ double centre_of_column(int k, int columns) {
 std::optional<double> find_narrow_space(const UnitEnds& ends,
                                         double widest_at,
                                         double widest_m) {
-  constexpr double kColumn = 1.0 / kScannedColumns;
+  constexpr int kParts = 48;
+  constexpr double kPart = 3.0 / kScannedColumns / kParts;
   const auto narrowness = [&](double s) {
-    const auto heights = ruled_heights(ends, s);
+    const auto heights = s > 0.0 && s < 1.0 ? ruled_heights(ends, s) : std::nullopt;
     return heights ? -heights->width_m() : kNoCost;
   };
-  const CostedX best = golden_section(narrowness,
-                                      widest_at - 0.5 * kColumn,
-                                      widest_at + 0.5 * kColumn,
-                                      1e-9,
-                                      {widest_at, -widest_m});
+  CostedX best{widest_at, -widest_m};
+  for (int k = 0; k < kParts; ++k) {
+    const double s = widest_at + (k + 0.5 - 0.5 * kParts) * kPart;
+    const double here = narrowness(s);
+    if (here < best.cost) best = {s, here};
+  }
+  best = golden_section(narrowness, best.x - kPart, best.x + kPart, 1e-7, best);
   return best.cost <= 0.0 ? std::optional(best.x) : std::nullopt;
 }
 
