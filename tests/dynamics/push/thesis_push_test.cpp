@@ -193,7 +193,7 @@ TEST(ThesisPush, EndsThatContradictTheRulesHaveNoPush) {
 double least_cost_of_grid(const PushEnds& ends, double at, double height_m) {
   const PushCost cost = near_point_cost(at, height_m);
   double least = std::numeric_limits<double>::infinity();
-  for (const SpaceColumn& c : search_space(ends, 4000)) {
+  for (const SpaceColumn& c : search_space(ends, 2000)) {
     const double z =
         std::clamp(height_m, c.heights.low.height_m, c.heights.high.height_m);
     least = std::min(least, cost(c.lowest_at, z));
@@ -222,7 +222,7 @@ TEST(ThesisPushChoice, IsTheWantedPointIfTheSpaceHasIt) {
 TEST(ThesisPushChoice, IsTheBestOfAFineGrid) {
   Dice dice(64);
   int found = 0;
-  while (found < 60) {
+  while (found < 50) {
     PushEnds ends = any_thesis_ends(dice);
     ends.start_m_s = -std::abs(ends.start_m_s);
     const double at = dice.between(0.1, 0.9);
@@ -247,7 +247,7 @@ TEST(ThesisPushChoice, IsTheBestOfAFineGrid) {
 TEST(ThesisPushChoice, TakesAnyCost) {
   const PushEnds ends = thesis_jump();
   double lowest = 0.0;
-  for (const SpaceColumn& c : search_space(ends, 4000))
+  for (const SpaceColumn& c : search_space(ends, 2000))
     lowest = std::min(lowest, c.heights.low.height_m);
   const auto deepest = choose_thesis_push(ends, [](double, double z) { return z; });
   ASSERT_TRUE(deepest);
@@ -270,7 +270,7 @@ TEST(ThesisPushChoice, FindsASpaceThatIsNarrowerThanAColumn) {
   PushEnds ends = thesis_jump();
   int narrow = 0;
   for (ends.end_m_s = 10.0; ends.end_m_s < 12.0; ends.end_m_s += 0.02) {
-    if (!search_space(ends, 96).empty() || search_space(ends, 3000).empty()) continue;
+    if (!search_space(ends, 96).empty() || search_space(ends, 2000).empty()) continue;
     ++narrow;
     EXPECT_TRUE(choose_thesis_push(ends, near_point_cost(0.6, -0.2))) << ends.end_m_s;
   }

@@ -76,13 +76,13 @@ const BoundRow kBoundTableIntoFreeFall[] = {{0.61, -269, kByForce, -363, kByForc
                                             {0.73, -166, kByFall, -209, kByFall, 0.0},
                                             {0.77, -146, kByFall, -161, kByFall, 0.24}};
 
-/// The table was made by sampling 240 instants. An exact bound lies inside: by up to
-/// 1.4 mm where it binds between instants or at an end.
+/// The table, rounded to 1 mm, was made by sampling 240 instants. An exact bound lies
+/// inside: by up to 1.4 mm where it binds between instants or at an end.
 void expect_row(const PushEnds& ends, const BoundRow& row) {
   SCOPED_TRACE(row.at);
   const auto sampled = testing::sampled_heights(ends, row.at, 240, false);
-  EXPECT_NEAR(static_cast<double>(1e3L * sampled.high_m), row.top_mm, 0.51);
-  EXPECT_NEAR(static_cast<double>(1e3L * sampled.low_m), row.bottom_mm, 0.51);
+  EXPECT_NEAR(static_cast<double>(1e3L * sampled.high_m), row.top_mm, 0.55);
+  EXPECT_NEAR(static_cast<double>(1e3L * sampled.low_m), row.bottom_mm, 0.55);
   const auto heights = allowed_heights(ends, row.at);
   ASSERT_TRUE(heights);
   EXPECT_EQ(heights->high.rule, row.top_rule);
@@ -95,9 +95,9 @@ void expect_row(const PushEnds& ends, const BoundRow& row) {
   EXPECT_NEAR(
       1e3 * heights->low.height_m, static_cast<double>(1e3L * sampled.low_m), 1.4);
   // And the limit of ever finer sampling is the exact bound.
-  const auto fine = testing::sampled_heights(ends, row.at, 100'000, false);
-  EXPECT_NEAR(heights->high.height_m, static_cast<double>(fine.high_m), 5e-6);
-  EXPECT_NEAR(heights->low.height_m, static_cast<double>(fine.low_m), 5e-6);
+  const auto fine = testing::sampled_heights(ends, row.at, 20'000, false);
+  EXPECT_NEAR(heights->high.height_m, static_cast<double>(fine.high_m), 3e-5);
+  EXPECT_NEAR(heights->low.height_m, static_cast<double>(fine.low_m), 3e-5);
 }
 
 TEST(ThesisSpace, HasTheBoundsOfTheTable) {
@@ -166,28 +166,39 @@ TEST(ThesisSpace, IsFourTimesLargerByTheForceRuleAlone) {
   EXPECT_LT(size.from, 0.04);
 }
 
-// Section 6.3.2 of the thesis concludes from convexity that a descent finds the minimum.
-TEST(ThesisSpace, IsNotConvex) {
-  const PushEnds ends = table_case();
+/// Share of midpoints of two members that are not members. Members are spread evenly over
+/// the area, or with equal weights of the columns.
+double share_outside(const PushEnds& ends, bool by_columns) {
   Dice dice(65);
-  std::vector<std::pair<double, double>> members;
   const auto is_member = [&](double s, double z) {
     const auto h = allowed_heights(ends, s);
     return h && z >= h->low.height_m && z <= h->high.height_m;
   };
-  while (members.size() < 1500) {
-    const double s = dice.between(0.4, 0.8);
-    const double z = dice.between(-0.4, -0.1);
-    if (is_member(s, z)) members.emplace_back(s, z);
-  }
+  const auto member = [&] {
+    for (;;) {
+      const double s = dice.between(0.4, 0.8);
+      const auto h = allowed_heights(ends, s);
+      if (!h) continue;
+      if (by_columns)
+        return std::pair(s, dice.between(h->low.height_m, h->high.height_m));
+      const double z = dice.between(-0.4, -0.1);
+      if (z >= h->low.height_m && z <= h->high.height_m) return std::pair(s, z);
+    }
+  };
+  constexpr int kPairs = 5000;
   int outside = 0;
-  int pairs = 0;
-  for (std::size_t k = 0; k < 20'000; ++k, ++pairs) {
-    const auto& [s1, z1] = members[k % members.size()];
-    const auto& [s2, z2] = members[(k * 7919 + 13) % members.size()];
+  for (int k = 0; k < kPairs; ++k) {
+    const auto [s1, z1] = member();
+    const auto [s2, z2] = member();
     if (!is_member(0.5 * (s1 + s2), 0.5 * (z1 + z2))) ++outside;
   }
-  EXPECT_NEAR(static_cast<double>(outside) / pairs, 0.19, 0.02);
+  return static_cast<double>(outside) / kPairs;
+}
+
+// Section 6.3.2 of the thesis concludes from convexity that a descent finds the minimum.
+TEST(ThesisSpace, IsNotConvex) {
+  EXPECT_NEAR(share_outside(table_case(), true), 0.19, 0.02);
+  EXPECT_NEAR(share_outside(table_case(), false), 0.066, 0.015);
 }
 
 TEST(ThesisSpace, GrowsAsTheTakeOffSpeedFalls) {
@@ -202,7 +213,7 @@ TEST(ThesisSpace, GrowsAsTheTakeOffSpeedFalls) {
 /// Instants inside (0, 1): equally spaced, and ever closer to both ends.
 std::vector<long double> dense_instants() {
   std::vector<long double> instants;
-  for (int i = 1; i < 3000; ++i) instants.push_back(i / 3000.0L);
+  for (int i = 1; i < 1000; ++i) instants.push_back(i / 1000.0L);
   for (long double x = 1e-3L; x > 1e-7L; x *= 0.7L) {
     instants.push_back(x);
     instants.push_back(1.0L - x);
@@ -247,7 +258,7 @@ TEST(ThesisSpace, MembersPushAndFallThenRiseAndOthersDoNot) {
       EXPECT_GT(v.force_m_s2, -1e-6L);
       EXPECT_GT(v.velocity_m_s, -1e-8L);
     }
-    for (const double z : {low - 2e-5, high + 2e-5}) {
+    for (const double z : {low - 1e-4, high + 1e-4}) {
       const RuleViolations v = violations_of(ends, s, z);
       EXPECT_TRUE(v.force_m_s2 < -1e-15L || v.velocity_m_s < -1e-15L) << z;
     }
@@ -257,13 +268,13 @@ TEST(ThesisSpace, MembersPushAndFallThenRiseAndOthersDoNot) {
 // An empty interval is empty by dense sampling, too.
 TEST(ThesisSpace, ColumnsWithoutHeightsHaveNoMember) {
   Dice dice(67);
-  for (int empty = 0; empty < 300;) {
+  for (int empty = 0; empty < 200;) {
     const PushEnds ends = likely_thesis_ends(dice);
     const double s = dice.between(0.05, 0.95);
     if (allowed_heights(ends, s)) continue;
     ++empty;
-    const auto fine = testing::sampled_heights(ends, s, 20'000, false);
-    EXPECT_LT(fine.high_m, fine.low_m + 1e-5L);
+    const auto fine = testing::sampled_heights(ends, s, 5000, false);
+    EXPECT_LT(fine.high_m, fine.low_m + 1e-4L);
   }
 }
 
