@@ -75,18 +75,21 @@ double centre_of_column(int k, int columns) {
 using Narrowness = std::array<double, kScannedColumns>;
 
 /// Returns an x at which the space is not empty although it is empty at all columns: it
-/// is narrower than a column. Searches between the columns that miss it by the least.
+/// is narrower than a column. Searches around the columns that miss it by the least, and
+/// by little.
 std::optional<double> find_narrow_space(const UnitEnds& ends, const Narrowness& columns) {
-  constexpr int kParts = 32;
+  constexpr int kParts = 24;
   constexpr double kPart = 2.0 / kScannedColumns / kParts;
   const auto narrowness = [&](double s) {
     const auto heights = s > 0.0 && s < 1.0 ? ruled_heights(ends, s) : std::nullopt;
     return heights ? -heights->width_m() : kNoCost;
   };
+  const double little_m = 0.02 * (ends.start_force - ends.start_acceleration);
   for (std::size_t k = 0; k < columns.size(); ++k) {
+    if (columns[k] > little_m) continue;
     const double before = k > 0 ? columns[k - 1] : kNoCost;
     const double after = k + 1 < columns.size() ? columns[k + 1] : kNoCost;
-    if (columns[k] == kNoCost || before < columns[k] || after < columns[k]) continue;
+    if (before < columns[k] || after < columns[k]) continue;
     const double centre = centre_of_column(static_cast<int>(k), kScannedColumns);
     CostedX best{centre, columns[k]};
     for (int part = 0; part < kParts; ++part) {
@@ -94,7 +97,7 @@ std::optional<double> find_narrow_space(const UnitEnds& ends, const Narrowness& 
       const double here = narrowness(s);
       if (here < best.cost) best = {s, here};
     }
-    best = golden_section(narrowness, best.x - kPart, best.x + kPart, 1e-7, best);
+    best = golden_section(narrowness, best.x - kPart, best.x + kPart, 1e-6, best);
     if (best.cost <= 0.0) return best.x;
   }
   return std::nullopt;

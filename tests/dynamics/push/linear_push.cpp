@@ -9,11 +9,11 @@
 namespace marey::testing {
 namespace {
 
-using Row = std::array<long double, 9>;
+using ConditionRow = std::array<long double, 9>;
 
 /// Returns the condition that a derivative has a value at x.
-Row condition(int order, long double x, long double value) {
-  Row row{};
+ConditionRow condition(int order, long double x, long double value) {
+  ConditionRow row{};
   for (int k = order; k < 8; ++k) {
     long double factor = 1.0L;
     for (int j = 0; j < order; ++j) factor *= static_cast<long double>(k - j);
@@ -23,7 +23,7 @@ Row condition(int order, long double x, long double value) {
   return row;
 }
 
-LinearPush solve_conditions(std::array<Row, 8> rows) {
+LinearPush solve_conditions(std::array<ConditionRow, 8> rows) {
   for (std::size_t column = 0; column < 8; ++column) {
     std::size_t pivot = column;
     for (std::size_t r = column; r < 8; ++r)

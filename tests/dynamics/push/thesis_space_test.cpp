@@ -308,7 +308,7 @@ TEST(ThesisSpace, ALowestPointOnTheBoundaryTouchesItsRule) {
   }
 }
 
-// Frictionless mechanics has no scale: heights times k, times by the root of k.
+// Lengths times k and times by the root of k are the same motion under the same gravity.
 TEST(ThesisSpace, ScalesWithHeightsAndGravity) {
   Dice dice(69);
   for (int checked = 0; checked < 200;) {
