@@ -207,20 +207,27 @@ Result<double> adapt_to_plan(const Subject& subject,
   Result<retarget::Adapter> made =
       retarget::Adapter::make(subject.character, supports, options);
   if (!made) return made.error();
+  // A support begins when its foot begins to be held, and ends with the last full hold.
+  std::array<std::vector<char>, 2> on;
+  for (std::size_t side = 0; side < 2; ++side) {
+    on[side].assign(wanted.size(), 0);
+    for (std::size_t t = wanted.size(); t-- > 0;) {
+      const double hold = subject.feet[side][t].hold;
+      const bool next = t + 1 < wanted.size() && on[side][t + 1] != 0;
+      on[side][t] = hold >= 1.0 || (hold > 0.0 && next) ? 1 : 0;
+    }
+  }
   const auto adapt = [&] {
     retarget::Adapter adapter =
         *retarget::Adapter::make(subject.character, supports, options);
     std::array handles{*adapter.constraint("leftFoot"), *adapter.constraint("rightFoot")};
-    std::array<bool, 2> is_on{};
     for (std::size_t t = 0; t < wanted.size(); ++t) {
       const double time_s = static_cast<double>(t) / subject.motion.rate.hz;
       for (std::size_t side = 0; side < 2; ++side) {
         const FootGoal& goal = subject.feet[side][t];
-        const double before = t > 0 ? subject.feet[side][t - 1].hold : goal.hold;
-        const bool on = goal.hold >= 1.0 || (goal.hold > 0.0 && goal.hold >= before);
-        if (on && !is_on[side]) handles[side].start(t > 0 ? time_s : -10.0);
-        if (!on && is_on[side]) handles[side].stop(time_s);
-        is_on[side] = on;
+        const bool was_on = t > 0 && on[side][t - 1] != 0;
+        if (on[side][t] != 0 && !was_on) handles[side].start(t > 0 ? time_s : -10.0);
+        if (on[side][t] == 0 && was_on) handles[side].stop(time_s);
         handles[side].set_target(goal.place.ankle_in_world +
                                  (1.0 - goal.hold) * displaced[t]);
         handles[side].set_orientation(goal.place.foot);
