@@ -66,10 +66,10 @@ struct FollowComReport {
 /// A leg reaches up to 0.995 of its length, or as far as in the reference if that is
 /// more. Before that the heel rises about the ball (without toe joints: about the sole's
 /// front end) as far as `heel_may_rise` permits, gradually, while the toes stay flat.
-/// What remains is reported, and the centre of mass stays as near to its target as the
-/// legs permit. A partly held foot is between its place and the place that it has on the
-/// displaced body; where it is too far it gives way instead of the root (from a hold of
-/// 0.7 on they share).
+/// The remaining error is reported, and the centre of mass stays as near to its target as
+/// the legs permit. A partly held foot is between its place and the place that it has on
+/// the displaced body; where it is too far it gives way instead of the root (from a hold
+/// of 0.7 on they share).
 ///
 /// `out` has one pose per frame and may be the reference's own poses. A frame whose
 /// target and places are the reference's own (within 1e-12) keeps its pose to the bit.
