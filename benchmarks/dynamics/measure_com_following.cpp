@@ -24,7 +24,7 @@
 #include "core/human/centre_of_mass.h"
 #include "retarget/adapt/adapter.h"
 #include "retarget/base/smooth_cover.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/character/make_character.h"
 #include "retarget/com/foot_goals.h"
 #include "retarget/contacts/detect_contacts.h"
@@ -81,7 +81,7 @@ const std::array<Course, 4> kCourses{{
     {"5 cm sideways", [](double t) { return glm::dvec3(0.05 * swell(t), 0, 0); }},
     {"8 cm down and up, 1.2 s",
      [](double t) {
-       const double wave = std::sin(2.0 * kPi * t / 1.2) * retarget::smooth_step(t / 0.6);
+       const double wave = std::sin(2.0 * kPi * t / 1.2) * smooth_step(t / 0.6);
        return glm::dvec3(0, -0.08 * wave, 0);
      }},
 }};

@@ -10,8 +10,8 @@
 #include <glm/matrix.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/smooth_step.h"
 #include "core/human/centre_of_mass.h"
-#include "retarget/base/smooth_step.h"
 
 namespace marey::retarget {
 namespace {
@@ -104,11 +104,12 @@ void ComCloser::try_at(glm::dvec3& moved_m, Try& out) const {
   for (int k = 0; k < kMaxGiveWays; ++k) {
     double largest_m = 0.0;
     for (std::size_t side = 0; side < 2; ++side) {
-      const double hold = legs_[side].hold();
-      if (hold <= 0.0) continue;
+      if (legs_[side].hold() <= 0.0) continue;
       out.ankles[side] = legs_[side].ankle_over_foot(moved_m);
       const AnkleOverFoot& ankle = out.ankles[side];
-      const double share = smooth_step((hold - kGivesWayFrom) / (1.0 - kGivesWayFrom));
+      const double hold = legs_[side].hold();
+      const double share = legs_[side].root_gives_way() *
+                           smooth_step((hold - kGivesWayFrom) / (1.0 - kGivesWayFrom));
       if (ankle.short_m == 0.0 || share <= 0.0) continue;
       if (k == 0) {
         kept_short_m[side] = (1.0 - share) * ankle.short_m;

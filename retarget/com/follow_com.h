@@ -24,6 +24,9 @@ struct FootGoal {
   /// Share by which the heel may rise about the ball where the leg is too short: 1 while
   /// the foot pushes off.
   double heel_may_rise = 0.0;
+  /// Share by which the root gives way where the leg is too short: 1 while the foot
+  /// bears. 0: the centre of mass stays on its target, and the foot leaves its place.
+  double root_gives_way = 1.0;
 };
 
 /// A body whose centre of mass follows a plan.

@@ -34,14 +34,17 @@ std::vector<FootGoal> foot_goals(const Motion& motion,
   MAREY_ASSERT(course.displaced_m.empty() || course.displaced_m.size() == count);
   MAREY_ASSERT(course.hold.empty() || course.hold.size() == count);
   MAREY_ASSERT(course.heel_may_rise.empty() || course.heel_may_rise.size() == count);
+  MAREY_ASSERT(course.root_gives_way.empty() || course.root_gives_way.size() == count);
   std::vector<FootGoal> out;
   out.reserve(count);
   for (const FootPlace& place : foot_places(motion, map, side)) {
     const std::size_t t = out.size();
-    FootGoal goal{place, 0.0, 0.0};
+    FootGoal goal;
+    goal.place = place;
     if (!course.displaced_m.empty()) goal.place.ankle_in_world += course.displaced_m[t];
     if (!course.hold.empty()) goal.hold = course.hold[t];
     if (!course.heel_may_rise.empty()) goal.heel_may_rise = course.heel_may_rise[t];
+    if (!course.root_gives_way.empty()) goal.root_gives_way = course.root_gives_way[t];
     out.push_back(goal);
   }
   return out;

@@ -26,6 +26,8 @@ struct FootGoalCourse {
   std::span<const glm::dvec3> displaced_m;  ///< Added to the ankle's place.
   std::span<const double> hold;             ///< As FootGoal::hold.
   std::span<const double> heel_may_rise;    ///< As FootGoal::heel_may_rise.
+  /// As FootGoal::root_gives_way; empty: 1 everywhere.
+  std::span<const double> root_gives_way{};
 };
 
 /// Returns the goals that keep a foot where the motion has it, displaced.

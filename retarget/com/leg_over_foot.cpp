@@ -86,6 +86,7 @@ void StandingLeg::start_frame(std::span<const RigidTransform> world_from_joint,
       rotation_from_t_pose(map_, world_from_joint, leg.upper) * leg.hinge_in_t_pose);
 
   hold_ = std::clamp(goal.hold, 0.0, 1.0);
+  root_gives_way_ = std::clamp(goal.root_gives_way, 0.0, 1.0);
   is_at_goal_ = true;
   lever_ = {};
   if (hold_ <= 0.0) return;

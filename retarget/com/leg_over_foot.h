@@ -61,6 +61,8 @@ class StandingLeg {
                    const FootGoal& goal);
 
   [[nodiscard]] double hold() const { return hold_; }
+  /// As FootGoal::root_gives_way.
+  [[nodiscard]] double root_gives_way() const { return root_gives_way_; }
   /// True if the wanted place is the reference's own.
   [[nodiscard]] bool is_at_goal() const { return is_at_goal_; }
   [[nodiscard]] double length_m() const { return bones_.length_m; }
@@ -98,6 +100,7 @@ class StandingLeg {
   glm::dquat foot_turn_{1.0, 0.0, 0.0, 0.0};
   glm::dquat toes_turn_{1.0, 0.0, 0.0, 0.0};
   double hold_ = 0.0;
+  double root_gives_way_ = 1.0;
   bool is_at_goal_ = true;
   double max_reach_m_ = 0.0;
   double min_reach_m_ = 0.0;

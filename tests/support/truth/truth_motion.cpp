@@ -57,16 +57,54 @@ RigidTransform y_up_from_z_up(const RigidTransform& z_up_from_segment) {
   return {y_up_from_z_up * z_up_from_segment.rotation, {p.x, p.z, -p.y}};
 }
 
-std::vector<Frame> read(std::istream& file) {
+struct SegmentFrames {
+  std::vector<Frame> frames;
+  FrameRate rate;  // 30 Hz unless the table states times only.
+};
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::istringstream row(line);
+  std::vector<std::string> cells;
+  for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+// A row per frame: the time, then seven numbers of each segment, "pelvis_px" and so on.
+SegmentFrames read_wide(std::istream& file, const std::vector<std::string>& columns) {
+  std::map<std::string, std::size_t> column_of;
+  for (std::size_t i = 0; i < columns.size(); ++i) column_of[columns[i]] = i;
+  SegmentFrames out;
+  std::vector<double> times_s;
+  for (std::string line; std::getline(file, line);) {
+    const std::vector<std::string> cells = cells_of(line);
+    Frame& frame = out.frames.emplace_back();
+    times_s.push_back(std::stod(cells.at(0)));
+    for (std::size_t i = 0; i < kSegments.size(); ++i) {
+      const std::size_t first = column_of.at(std::string(kSegments[i].name) + "_px");
+      const auto number = [&](std::size_t k) { return std::stod(cells.at(first + k)); };
+      frame[i] = y_up_from_z_up(
+          {glm::normalize(glm::dquat(number(3), number(4), number(5), number(6))),
+           {number(0), number(1), number(2)}});
+    }
+  }
+  if (times_s.size() > 1) {
+    out.rate.hz =
+        static_cast<double>(times_s.size() - 1) / (times_s.back() - times_s.front());
+  }
+  return out;
+}
+
+SegmentFrames read(std::istream& file) {
   std::map<std::string, std::size_t> place;
   for (std::size_t i = 0; i < kSegments.size(); ++i) place[kSegments[i].name] = i;
-  std::vector<Frame> frames;
+  SegmentFrames out;
+  std::vector<Frame>& frames = out.frames;
   std::string line;
   std::getline(file, line);
+  const std::vector<std::string> columns = cells_of(line);
+  if (columns.size() > 2 && columns[2] != "segment") return read_wide(file, columns);
   while (std::getline(file, line)) {
-    std::istringstream row(line);
-    std::vector<std::string> cells;
-    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+    const std::vector<std::string> cells = cells_of(line);
     const auto frame = static_cast<std::size_t>(std::stoi(cells.at(0)));
     if (frame >= frames.size()) frames.resize(frame + 1);
     const auto number = [&](std::size_t k) { return std::stod(cells.at(k)); };
@@ -74,7 +112,7 @@ std::vector<Frame> read(std::istream& file) {
         {glm::normalize(glm::dquat(number(6), number(7), number(8), number(9))),
          {number(3), number(4), number(5)}});
   }
-  return frames;
+  return out;
 }
 
 }  // namespace
@@ -82,8 +120,9 @@ std::vector<Frame> read(std::istream& file) {
 std::optional<Motion> truth_motion(const std::string& segments_csv) {
   std::ifstream file(segments_csv);
   if (!file) return std::nullopt;
-  const std::vector<Frame> frames = read(file);
+  const auto [frames, rate] = read(file);
   Motion motion;
+  motion.rate = rate;
   for (std::size_t i = 0; i < kSegments.size(); ++i) {
     Joint joint;
     joint.name = std::string(name(kSegments[i].bone));
