@@ -18,13 +18,14 @@
 
 #include <glm/geometric.hpp>
 
+#include "benchmarks/dynamics/jump_clips.h"
 #include "benchmarks/parts/captured_clips.h"
 #include "benchmarks/parts/result_table.h"
 #include "benchmarks/retarget/scaled_bodies.h"
+#include "core/base/smooth_step.h"
 #include "core/human/centre_of_mass.h"
 #include "retarget/adapt/adapter.h"
 #include "retarget/base/smooth_cover.h"
-#include "core/base/smooth_step.h"
 #include "retarget/character/make_character.h"
 #include "retarget/com/foot_goals.h"
 #include "retarget/contacts/detect_contacts.h"
@@ -132,8 +133,9 @@ std::vector<double> holds(const FootContacts& foot, FrameRate rate, std::size_t 
   return out;
 }
 
-Result<Subject> subject_of(const CapturedClip& clip, const Stature& stature) {
-  Motion source{clip.character.skeleton, {clip.rate_hz}, 0, clip.poses};
+Result<Subject> subject_of(const std::string& name,
+                           Motion source,
+                           const Stature& stature) {
   if (source.poses.size() > kMaxFrames) source.poses.resize(kMaxFrames);
   const auto source_map = retarget::map_body(source.skeleton);
   if (!source_map) return source_map.error();
@@ -146,7 +148,7 @@ Result<Subject> subject_of(const CapturedClip& clip, const Stature& stature) {
   if (!made) return made.error();
   auto map = retarget::map_body(avatar);
   if (!map) return map.error();
-  auto character = retarget::make_character(clip.name, avatar, *map);
+  auto character = retarget::make_character(name, avatar, *map);
   if (!character) return character.error();
   Subject out{std::move(made->motion), *std::move(character), *std::move(map), {}, {}};
   for (const Pose& pose : out.motion.poses) {
@@ -381,16 +383,39 @@ int fail(const Error& error) {
   return 3;
 }
 
-int run(const fs::path& mocap, const fs::path& json) {
-  const auto clips = read_clips(mocap, ClipSet::kAll);
-  if (!clips) return fail(clips.error());
+struct NamedMotion {
+  std::string name;
+  Motion motion;
+};
+
+/// Reads clips of CMU and Bandai Namco, two jumps and two runs with plates, and the
+/// rendered jump.
+Result<std::vector<NamedMotion>> read_motions(const fs::path& data) {
+  std::vector<NamedMotion> out;
+  auto clips = read_clips(data / "mocap", ClipSet::kAll);
+  if (!clips) return clips.error();
+  for (CapturedClip& clip : *clips) {
+    out.push_back(
+        {clip.name, {clip.character.skeleton, {clip.rate_hz}, 0, std::move(clip.poses)}});
+  }
+  std::vector<JumpClip> jumps = plate_clips(data / "mocap");
+  if (auto jump = read_second_drop_jump(data / "mocap"))
+    jumps.push_back(*std::move(jump));
+  if (auto jump = read_rendered_jump(data)) jumps.push_back(*std::move(jump));
+  for (JumpClip& clip : jumps) out.push_back({clip.name, std::move(clip.motion)});
+  return out;
+}
+
+int run(const fs::path& data, const fs::path& json) {
+  const auto motions = read_motions(data);
+  if (!motions) return fail(motions.error());
   ResultTable table = empty_table();
-  for (const CapturedClip& clip : *clips) {
+  for (const NamedMotion& named : *motions) {
     for (const Stature& stature : kStatures) {
-      const auto subject = subject_of(clip, stature);
+      const auto subject = subject_of(named.name, named.motion, stature);
       if (!subject) return fail(subject.error());
       for (const Course& course : kCourses) {
-        const Status ok = add_row(clip.name, stature, *subject, course, table);
+        const Status ok = add_row(named.name, stature, *subject, course, table);
         if (!ok) return fail(ok.error());
       }
     }
@@ -405,7 +430,7 @@ int run(const fs::path& mocap, const fs::path& json) {
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::fprintf(stderr, "usage: measure_com_following MOCAP_FOLDER [FIGURES.json]\n");
+    std::fprintf(stderr, "usage: measure_com_following DATA_FOLDER [FIGURES.json]\n");
     return 2;
   }
   return marey::run(argv[1], argc > 2 ? argv[2] : "");
