@@ -18,19 +18,12 @@
 
 #include <glm/geometric.hpp>
 
-#include "benchmarks/dynamics/jump_clips.h"
-#include "benchmarks/parts/captured_clips.h"
+#include "benchmarks/dynamics/com_subjects.h"
 #include "benchmarks/parts/result_table.h"
-#include "benchmarks/retarget/scaled_bodies.h"
-#include "core/base/smooth_step.h"
 #include "core/human/centre_of_mass.h"
 #include "retarget/adapt/adapter.h"
-#include "retarget/base/smooth_cover.h"
-#include "retarget/character/make_character.h"
-#include "retarget/com/foot_goals.h"
-#include "retarget/contacts/detect_contacts.h"
+#include "retarget/com/follow_com.h"
 #include "retarget/contacts/measure_contacts.h"
-#include "retarget/motion/retarget_motion.h"
 #include "tests/support/program/thread_time.h"
 
 namespace marey {
@@ -39,53 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 using retarget::FootGoal;
 
-constexpr double kFade_s = 0.08;  // Half of a foot's fade, as edit's hold_feet().
-constexpr double kAdultLeg_m = 0.9;
-constexpr double kPi = 3.14159265358979323846;
-constexpr std::size_t kMaxFrames = 600;
 constexpr int kTimedRuns = 3;
-
-struct Stature {
-  const char* name;
-  double height_m;
-  double legs;
-  double trunk;
-};
-constexpr std::array kStatures{Stature{"0.6 m", 0.6, 0.9, 1.1},
-                               Stature{"1.1 m", 1.1, 0.95, 1.05},
-                               Stature{"1.75 m", 1.75, 1.0, 1.0},
-                               Stature{"1.9 m, long legs", 1.9, 1.15, 0.9},
-                               Stature{"2.5 m", 2.5, 1.0, 1.0}};
-
-/// A motion on one body, its feet and its centre of mass.
-struct Subject {
-  Motion motion;
-  Character character;
-  retarget::BodyMap map;
-  std::vector<glm::dvec3> com;
-  std::array<std::vector<FootGoal>, 2> feet;
-};
-
-/// Displacement of the centre of mass, for an adult's leg.
-struct Course {
-  const char* name;
-  glm::dvec3 (*displaced_m)(double time_s);
-};
-
-// 0, 1 and 0 again in two seconds.
-double swell(double time_s) {
-  return 0.5 - 0.5 * std::cos(kPi * time_s);
-}
-const std::array<Course, 4> kCourses{{
-    {"10 cm deeper", [](double t) { return glm::dvec3(0, -0.1 * swell(t), 0); }},
-    {"5 cm higher", [](double t) { return glm::dvec3(0, 0.05 * swell(t), 0); }},
-    {"5 cm sideways", [](double t) { return glm::dvec3(0.05 * swell(t), 0, 0); }},
-    {"8 cm down and up, 1.2 s",
-     [](double t) {
-       const double wave = std::sin(2.0 * kPi * t / 1.2) * smooth_step(t / 0.6);
-       return glm::dvec3(0, -0.08 * wave, 0);
-     }},
-}};
 
 /// Figures of one result. Distances by forward kinematics of the result.
 struct Figures {
@@ -116,65 +63,6 @@ double peak_jerk(const Motion& motion) {
   }
   return worst;
 }
-
-int half_fade(FrameRate rate) {
-  return std::max(1, static_cast<int>(std::lround(kFade_s * rate.hz)));
-}
-
-std::vector<double> holds(const FootContacts& foot, FrameRate rate, std::size_t frames) {
-  std::vector<double> stands(frames, 0.0);
-  for (const FrameRange& run : foot.stance) {
-    std::fill(stands.begin() + run.first, stands.begin() + run.last + 1, 1.0);
-  }
-  std::vector<double> out = retarget::smooth_cover(stands, half_fade(rate));
-  for (std::size_t t = 0; t < frames; ++t) {
-    out[t] = stands[t] > 0.0 ? 1.0 : std::min(1.0, out[t]);
-  }
-  return out;
-}
-
-Result<Subject> subject_of(const std::string& name,
-                           Motion source,
-                           const Stature& stature) {
-  if (source.poses.size() > kMaxFrames) source.poses.resize(kMaxFrames);
-  const auto source_map = retarget::map_body(source.skeleton);
-  if (!source_map) return source_map.error();
-  const double by =
-      stature.height_m / retarget::head_height_m(source.skeleton, *source_map);
-  const Skeleton avatar =
-      scaled(source.skeleton,
-             {stature.name, by * stature.legs, by * stature.trunk, by * stature.trunk});
-  auto made = retarget::retarget_motion(source, avatar);
-  if (!made) return made.error();
-  auto map = retarget::map_body(avatar);
-  if (!map) return map.error();
-  auto character = retarget::make_character(name, avatar, *map);
-  if (!character) return character.error();
-  Subject out{std::move(made->motion), *std::move(character), *std::move(map), {}, {}};
-  for (const Pose& pose : out.motion.poses) {
-    out.com.push_back(centre_of_mass(out.character.masses,
-                                     world_from_joints(out.motion.skeleton, pose)));
-  }
-  const Contacts contacts = retarget::detect_contacts(out.motion, out.map);
-  const std::vector<double> ones(out.com.size(), 1.0);
-  for (std::size_t side = 0; side < 2; ++side) {
-    const auto hold = holds(contacts.feet[side], out.motion.rate, out.com.size());
-    out.feet[side] = retarget::foot_goals(
-        out.motion, out.map, static_cast<int>(side), {{}, hold, ones});
-  }
-  return out;
-}
-
-std::vector<glm::dvec3> displaced_m(const Subject& subject, const Course& course) {
-  std::vector<glm::dvec3> out;
-  const double scale = subject.map.leg_length_m / kAdultLeg_m;
-  for (std::size_t t = 0; t < subject.com.size(); ++t) {
-    out.push_back(scale *
-                  course.displaced_m(static_cast<double>(t) / subject.motion.rate.hz));
-  }
-  return out;
-}
-
 template <class Work>
 double us_per_frame(std::size_t frames, const Work& work) {
   double best = std::numeric_limits<double>::infinity();
@@ -383,38 +271,15 @@ int fail(const Error& error) {
   return 3;
 }
 
-struct NamedMotion {
-  std::string name;
-  Motion motion;
-};
-
-/// Reads clips of CMU and Bandai Namco, two jumps and two runs with plates, and the
-/// rendered jump.
-Result<std::vector<NamedMotion>> read_motions(const fs::path& data) {
-  std::vector<NamedMotion> out;
-  auto clips = read_clips(data / "mocap", ClipSet::kAll);
-  if (!clips) return clips.error();
-  for (CapturedClip& clip : *clips) {
-    out.push_back(
-        {clip.name, {clip.character.skeleton, {clip.rate_hz}, 0, std::move(clip.poses)}});
-  }
-  std::vector<JumpClip> jumps = plate_clips(data / "mocap");
-  if (auto jump = read_second_drop_jump(data / "mocap"))
-    jumps.push_back(*std::move(jump));
-  if (auto jump = read_rendered_jump(data)) jumps.push_back(*std::move(jump));
-  for (JumpClip& clip : jumps) out.push_back({clip.name, std::move(clip.motion)});
-  return out;
-}
-
 int run(const fs::path& data, const fs::path& json) {
   const auto motions = read_motions(data);
   if (!motions) return fail(motions.error());
   ResultTable table = empty_table();
   for (const NamedMotion& named : *motions) {
-    for (const Stature& stature : kStatures) {
+    for (const Stature& stature : statures()) {
       const auto subject = subject_of(named.name, named.motion, stature);
       if (!subject) return fail(subject.error());
-      for (const Course& course : kCourses) {
+      for (const Course& course : courses()) {
         const Status ok = add_row(named.name, stature, *subject, course, table);
         if (!ok) return fail(ok.error());
       }
