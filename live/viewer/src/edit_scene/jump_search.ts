@@ -77,7 +77,7 @@ function isJump(op: OpWords | undefined): boolean {
 }
 
 /** Returns the index of the jump that the panel shows: the selected operation, or the one that
- *  made the shown motion. null: there is none. */
+ *  made the shown motion; or null. */
 export function shownJump(ops: readonly OpWords[], selected: number | null,
   until: number | null): number | null {
   if (selected !== null && isJump(ops[selected])) return selected;
@@ -144,7 +144,7 @@ export function lowestWords(space: readonly SpaceColumnWords[], {at, height_m}: 
   return `${place}; possible: ${fixed(low, 3)} to ${fixed(high, 3)} m.`;
 }
 
-/** Returns the largest push of the curve, in g; null: there is none. */
+/** Returns the largest push of the curve, in g; null: the curve is empty. */
 export function peakOf({push_g}: Pick<JumpWords, 'push_g'>): number | null {
   return push_g.reduce((peak: number | null, value) =>
     (value === null ? peak : Math.max(peak ?? value, value)), null);

@@ -100,7 +100,7 @@ const SHAPE: OpSchema[] = [
     number('apex_by_m', 'Higher by', LIMITS.rise,
       {default: 0, help: 'Added to the highest point of the centre of mass'}),
     number('apex_m', 'Highest point', LIMITS.apex, {absent: 'as captured',
-      help: 'Of the centre of mass, above the floor of the take-off'}),
+      help: 'Height of the centre of mass above the floor of the take-off'}),
     number('airtime_s', 'Time in the air', LIMITS.phase, {absent: 'as captured'}),
     number('length_m', 'Length', LIMITS.distance, {absent: 'as captured',
       help: 'Distance of the feet between take-off and landing'}),
@@ -115,7 +115,7 @@ const SHAPE: OpSchema[] = [
     table('lowest', 'Lowest point', [
       number('at', 'Share of the push', LIMITS.share, need),
       number('height_m', 'Height', LIMITS.place, need)], {at: 0.6, height_m: 0.7},
-    {absent: 'as captured', help: 'Of the centre of mass, in the push'}),
+    {absent: 'as captured', help: 'Lowest point of the centre of mass during the push'}),
     number('strength_g', 'Largest push', LIMITS.strength,
       {absent: '1.3 times the captured peak, at least 2.5'}),
     number('gravity_m_s2', 'Gravity', LIMITS.gravity, {default: 9.81}),
