@@ -83,7 +83,7 @@ Result<FoundJumps> find_state_jumps(const JumpOp& op,
     const std::string count = std::to_string(out.jumps.size());
     return bad_input(
         "jump",
-        "is " + std::to_string(op.jump) + ", but there " +
+        "jump " + std::to_string(op.jump) + " does not exist, there " +
             (out.jumps.size() == 1 ? "is 1 jump" : "are " + count + " jumps"),
         out.jumps.size() == 1 ? "choose 1" : "choose 1 to " + count);
   }
