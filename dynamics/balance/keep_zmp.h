@@ -15,7 +15,7 @@
 namespace marey::dynamics {
 
 struct KeepZmpOptions {
-  ZmpOptions zmp{};  ///< Those with which the reactions were computed.
+  ZmpOptions zmp{};  ///< Options of ground_reactions().
   /// Distance that zero moment points keep from the edges of the support area, at most a
   /// quarter of the area's width.
   double margin_m = 0.010;
@@ -34,17 +34,17 @@ struct KeepZmpOptions {
   int max_iterations = 80;
 };
 
-/// One motion. All spans have the same length, unless said otherwise.
+/// One motion. Spans have one value per frame; the last two may be empty.
 struct KeepZmpInput {
   std::span<const glm::dvec3> com_in_world;
   std::span<const GroundReaction> reactions;
   std::span<const SupportPolygon> supports;
   FrameRate rate;
-  /// Displacement that the centre of mass already has from the reference: the sum is what
-  /// is kept small. Empty: none.
+  /// Existing displacement of the centre of mass from the reference. The sum with the new
+  /// one is kept small. Empty: none.
   std::span<const glm::dvec2> displaced_xz_m{};
-  /// How far each frame may be displaced, 0 to 1: at 0 it is not displaced, and its zero
-  /// moment point is not considered. Empty: 1 everywhere.
+  /// Effect on each frame, 0 to 1: at 0 a frame is not displaced, and its zero moment
+  /// point is not considered. Empty: 1 everywhere.
   std::span<const double> freedom{};
 };
 

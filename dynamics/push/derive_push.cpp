@@ -9,7 +9,7 @@
 #include "dynamics/push/dual_active_set.h"
 #include "dynamics/push/force_push.h"
 #include "dynamics/push/force_splines.h"
-#include "dynamics/push/push_samples.h"
+#include "dynamics/push/push_reference.h"
 
 #include "core/base/assert.h"
 

@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/human/contacts.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/com/foot_goals.h"
 
 namespace marey::edit {
@@ -64,9 +64,9 @@ double hold_at(const std::vector<Stance>& stances, double time_s) {
     double share = 1.0;
     if (time_s < stance.from_s) {
       share =
-          retarget::smooth_step(1.0 - (stance.from_s - time_s) / stance.fade_before_s);
+          smooth_step(1.0 - (stance.from_s - time_s) / stance.fade_before_s);
     } else if (time_s > stance.to_s) {
-      share = retarget::smooth_step(1.0 - (time_s - stance.to_s) / stance.fade_after_s);
+      share = smooth_step(1.0 - (time_s - stance.to_s) / stance.fade_after_s);
     }
     hold = std::max(hold, share);
   }
@@ -89,21 +89,21 @@ std::array<std::vector<retarget::FootGoal>, 2> jump_feet(const EditState& state,
     const double push_s = takeoff_s - plan.lowest_s();
     if (time_s <= takeoff_s) {
       heel[t] =
-          retarget::smooth_step((time_s - plan.lowest_s()) / std::max(push_s, 1.0 / hz));
+          smooth_step((time_s - plan.lowest_s()) / std::max(push_s, 1.0 / hz));
     } else {
       heel[t] = 1.0;
     }
     const double landing_s = plan.touchdown() ? plan.touchdown()->time_s : duration_s;
     gives_way[t] = time_s < takeoff_s
-                       ? retarget::smooth_step((takeoff_s - time_s) / kGiveWay_s)
-                       : retarget::smooth_step((time_s - landing_s) / kGiveWay_s);
+                       ? smooth_step((takeoff_s - time_s) / kGiveWay_s)
+                       : smooth_step((time_s - landing_s) / kGiveWay_s);
     if (!plan.touchdown()) continue;
     const double touchdown_s = plan.touchdown()->time_s;
     displaced[t] =
-        retarget::smooth_step((time_s - takeoff_s) / (touchdown_s - takeoff_s)) *
+        smooth_step((time_s - takeoff_s) / (touchdown_s - takeoff_s)) *
         plan.landing_moved_m();
     if (time_s > touchdown_s) {
-      heel[t] = 1.0 - retarget::smooth_step((time_s - touchdown_s) / kHeelDown_s);
+      heel[t] = 1.0 - smooth_step((time_s - touchdown_s) / kHeelDown_s);
     }
   }
   std::array<std::vector<retarget::FootGoal>, 2> out;
