@@ -144,6 +144,8 @@ async function drawJump(browser) {
     const {mareyPage} = window;
     mareyPage.stopAt(Math.round(mareyPage.jump.words.phases.apex_s * mareyPage.output.rate_hz));
   });
+  await drawn(page);
+  await page.keyboard.press('2');
   await page.keyboard.press('f');
   await drawn(page);
   await page.screenshot({path: join(out, 'edit-jump.png')});

@@ -210,8 +210,8 @@ export class JumpCurves {
     context.setLineDash([6, 3]);
     line(context, from, y, to, y);
     context.setLineDash([]);
-    const words = `at most ${fixed(value, 1)} g`;
-    const isAfter = to + 70 < LEFT_PX + this.plotWidth;
+    const words = `≤ ${fixed(value, 1)} g`;
+    const isAfter = to + 50 < LEFT_PX + this.plotWidth;
     context.textAlign = isAfter ? 'left' : 'right';
     context.fillText(words, isAfter ? to + 5 : to - 2,
       isAfter ? y : y + (y - plot.top < 16 ? 9 : -8));
