@@ -18,6 +18,7 @@
 #include "app/edit/edit_commands.h"
 #include "app/inspect/doctor_commands.h"
 #include "app/inspect/inspect_commands.h"
+#include "app/jump/jump_commands.h"
 #include "app/library/library_commands.h"
 #include "app/library/page/library_view.h"
 #include "app/live/listen_commands.h"
@@ -54,6 +55,7 @@ struct Arguments {
   RetargetArguments retarget;
   AdaptArguments adapt;
   EditArguments edit;
+  JumpArguments jump;
   LibraryArguments library;
   ConvertArguments convert;
   MannequinArguments mannequin;
@@ -112,6 +114,7 @@ int run(int argc, char** argv) {
   add_retarget_command(app, args.retarget, chosen);
   add_adapt_command(app, args.adapt, chosen);
   add_edit_command(app, args.edit, chosen);
+  add_jump_command(app, args.jump, chosen);
   add_library_command(app, args.library, chosen);
   add_convert_command(app, args.convert, chosen);
   add_mannequin_command(app, args.mannequin, chosen);

@@ -17,7 +17,8 @@ struct TimeWarp::Place {
   double x = 0.0;
 };
 
-TimeWarp::TimeWarp(std::span<const WarpKnot> knots) : knots_(knots.begin(), knots.end()) {
+TimeWarp::TimeWarp(std::span<const WarpKnot> knots, std::optional<double> outer_speed)
+    : knots_(knots.begin(), knots.end()) {
   MAREY_ASSERT(!knots_.empty());
   std::vector<double> mean;
   for (std::size_t i = 1; i < knots_.size(); ++i) {
@@ -30,13 +31,18 @@ TimeWarp::TimeWarp(std::span<const WarpKnot> knots) : knots_(knots.begin(), knot
     speed_ = {1.0};
     return;
   }
-  speed_.push_back(mean.front());
+  // A quintic is monotone up to 2.14 times the mean speed.
+  constexpr double kMostOfMean = 2.1;
+  const auto outer = [&](double mean_speed) {
+    return std::min(outer_speed.value_or(mean_speed), kMostOfMean * mean_speed);
+  };
+  speed_.push_back(outer(mean.front()));
   for (std::size_t i = 1; i < mean.size(); ++i) {
     const double a = mean[i - 1];
     const double b = mean[i];
     speed_.push_back(a == b ? a : 2.0 * a * b / (a + b));
   }
-  speed_.push_back(mean.back());
+  speed_.push_back(outer(mean.back()));
 }
 
 TimeWarp::Place TimeWarp::find(double time_s) const {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,8 +24,11 @@ struct WarpKnot {
 /// the line. Beyond the first and the last knot the speed there continues.
 class TimeWarp {
  public:
+  /// `outer_speed` is the speed at the first and at the last knot, and beyond; nullopt:
+  /// the mean speed of the interval there. It is at most 2.1 times that.
   /// Precondition: at least one knot; both times ascend strictly. One knot: speed 1.
-  explicit TimeWarp(std::span<const WarpKnot> knots);
+  explicit TimeWarp(std::span<const WarpKnot> knots,
+                    std::optional<double> outer_speed = std::nullopt);
 
   /// Returns the source time. Logarithmic in knots.
   [[nodiscard]] double source_s(double time_s) const;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "edit/jump/apply_jump.h"
 #include "edit/ops/annotate.h"
 #include "edit/ops/balance.h"
 #include "edit/ops/constrain.h"
@@ -105,10 +106,8 @@ struct OpApplier {
   States operator()(const ExaggerateOp& op) const {
     return one(apply_exaggerate(op, context, state, report));
   }
-  States operator()(const JumpOp& /*op*/) const {
-    return bad_input("jump",
-                     "cannot be applied by this version of marey",
-                     "remove the operation, or set off = true");
+  States operator()(const JumpOp& op) const {
+    return one(apply_jump(op, context, state, report));
   }
   States operator()(const BalanceOp& op) const {
     return one(apply_balance(op, context, state, report));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "edit/find/find_loops.h"
+#include "edit/jump/jump_graph.h"
 #include "edit/render.h"
 
 #include "app/edit/edit_inputs.h"
@@ -64,6 +65,14 @@ struct EditLoops {
   std::optional<edit::LoopMap> map;
 };
 
+struct EditJump {
+  int revision = 0;
+  int op = 0;  ///< Index of the operation.
+  int output = 0;
+  int number = 1;  ///< JumpOp::jump.
+  edit::JumpGraph graph;
+};
+
 struct EditExported {
   int revision = 0;
   std::vector<std::filesystem::path> files;
@@ -90,6 +99,7 @@ class EditListener {
                           const PreviewParts& parts,
                           const EditResult& result) = 0;
   virtual void on_loops(const EditAsker& asker, const EditLoops& loops) = 0;
+  virtual void on_jump(const EditAsker& asker, const EditJump& jump) = 0;
   virtual void on_exported(const EditAsker& asker, const EditExported& exported) = 0;
   /// A request of a page failed. Also on the thread of the session.
   virtual void on_failed(const EditAsker& asker, const Error& error) = 0;

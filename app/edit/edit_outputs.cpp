@@ -118,27 +118,11 @@ class EditWriter {
     return Done{};
   }
 
+  /// Writes nothing if the body allows no file of this kind.
   Status write_motion_as(MotionFormat format) {
-    const std::string ending = "." + std::string(name(format));
-    if (format == MotionFormat::kNpz) {
-      return add(ending, [&](const fs::path& path) {
-        return recordings::write_npz(
-            path, state_.motion, {state_.uncertainty, npz_contacts(state_), {}});
-      });
-    }
-    if (format == MotionFormat::kGlb && look_.file.empty() &&
-        is_marey_skeleton(state_.motion.skeleton)) {
-      return add(ending, [&](const fs::path& path) {
-        const Proportions proportions = proportions_of(state_.motion.skeleton);
-        return recordings::write_character(path,
-                                           state_.motion.skeleton,
-                                           recordings::make_mannequin_mesh(proportions),
-                                           &state_.motion);
-      });
-    }
-    if (!can_hold(format, state_.motion.skeleton, look_)) return Done{};
-    return add(ending, [&](const fs::path& path) {
-      return write_motion_file(path, format, state_.motion, look_);
+    if (!check_result_format(format, state_, look_)) return Done{};
+    return add("." + std::string(name(format)), [&](const fs::path& path) {
+      return write_result_motion(path, format, state_, look_);
     });
   }
 
@@ -147,6 +131,14 @@ class EditWriter {
   fs::path stem_;
   std::vector<fs::path> files_;
 };
+
+/// Returns whether a .glb gets marey's mannequin instead of the body's own mesh.
+bool has_mannequin(MotionFormat format,
+                   const edit::EditState& state,
+                   const BodyLook& look) {
+  return format == MotionFormat::kGlb && look.file.empty() &&
+         is_marey_skeleton(state.motion.skeleton);
+}
 
 void check_limit(const std::optional<double>& limit,
                  double value,
@@ -165,6 +157,31 @@ void check_limit(const std::optional<double>& limit,
 }
 
 }  // namespace
+
+Status check_result_format(MotionFormat format,
+                           const edit::EditState& state,
+                           const BodyLook& look) {
+  if (has_mannequin(format, state, look)) return Done{};
+  return can_hold(format, state.motion.skeleton, look);
+}
+
+Status write_result_motion(const fs::path& path,
+                           MotionFormat format,
+                           const edit::EditState& state,
+                           const BodyLook& look) {
+  if (format == MotionFormat::kNpz) {
+    return recordings::write_npz(
+        path, state.motion, {state.uncertainty, npz_contacts(state), {}});
+  }
+  if (!has_mannequin(format, state, look)) {
+    return write_motion_file(path, format, state.motion, look);
+  }
+  const Proportions proportions = proportions_of(state.motion.skeleton);
+  return recordings::write_character(path,
+                                     state.motion.skeleton,
+                                     recordings::make_mannequin_mesh(proportions),
+                                     &state.motion);
+}
 
 Status check_output_formats(const EditOutput& output, bool has_markers) {
   if (has_markers && output.marker_formats.empty() && !output.formats.empty()) {

@@ -57,6 +57,19 @@ struct EditOutput {
 [[nodiscard]] std::vector<Finding> assess_edit(const EditRecipe& recipe,
                                                const std::vector<EditFigures>& figures);
 
+/// Checks that the motion of a result can be written in a format: as can_hold(), and a
+/// skeleton made by marey without a mesh has a mannequin in a .glb.
+[[nodiscard]] Status check_result_format(MotionFormat format,
+                                         const edit::EditState& state,
+                                         const BodyLook& look);
+/// Writes the motion of a result, an .npz with its uncertainty and contacts. The file
+/// appears whole or not at all; same input, same bytes.
+/// Errors: check_result_format()'s, with `path`; the disk.
+[[nodiscard]] Status write_result_motion(const std::filesystem::path& path,
+                                         MotionFormat format,
+                                         const edit::EditState& state,
+                                         const BodyLook& look);
+
 /// Writes NAME.npz, .bvh, .glb and .vrma (what the body allows), NAME.constraints.xml if
 /// there are any, NAME.annotations.json and NAME.edit.json. Each file appears whole or
 /// not at all; same input, same bytes. Returns the files.

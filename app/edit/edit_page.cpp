@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "app/edit/edit_jump.h"
 #include "app/shell/stop_signal.h"
 #include "live/page/edit_request.h"
 #include "live/page/page_scene.h"
@@ -152,6 +153,10 @@ void EditPagePublisher::on_loops(const EditAsker& asker, const EditLoops& loops)
   server_.queue_text(client_of(asker), loops_json(asker, loops));
 }
 
+void EditPagePublisher::on_jump(const EditAsker& asker, const EditJump& jump) {
+  server_.queue_text(client_of(asker), jump_json(asker, jump));
+}
+
 void EditPagePublisher::on_exported(const EditAsker& asker,
                                     const EditExported& exported) {
   server_.queue_text(client_of(asker), exported_json(asker, exported));
@@ -174,6 +179,8 @@ std::string EditPageDesk::carry_out(const EditAsker& asker,
           return session_.preview(asker, body);
         } else if constexpr (std::is_same_v<Body, live::LoopsRequest>) {
           return session_.loops(asker, body);
+        } else if constexpr (std::is_same_v<Body, live::JumpRequest>) {
+          return session_.jump(asker, body);
         } else if constexpr (std::is_same_v<Body, live::ExportRequest>) {
           return session_.write(asker, body);
         } else if constexpr (std::is_same_v<Body, live::EditRequest>) {

@@ -49,6 +49,7 @@ class EditPagePublisher : public EditListener {
                   const PreviewParts& parts,
                   const EditResult& result) override;
   void on_loops(const EditAsker& asker, const EditLoops& loops) override;
+  void on_jump(const EditAsker& asker, const EditJump& jump) override;
   void on_exported(const EditAsker& asker, const EditExported& exported) override;
   void on_failed(const EditAsker& asker, const Error& error) override;
 

@@ -37,14 +37,23 @@ Result<EditRun> render_recipe(const fs::path& file,
                               EditRecipe recipe,
                               const EditRunOptions& options,
                               Console& console) {
+  auto files = read_edit_files(recipe, options_of_reading(file, options));
+  if (!files) return files.error();
+  return render_read_files(
+      file.string(), std::move(recipe), *std::move(files), options.until, console);
+}
+
+Result<EditRun> render_read_files(const std::string& recipe_file,
+                                  EditRecipe recipe,
+                                  EditFiles files,
+                                  std::optional<std::size_t> until,
+                                  Console& console) {
   EditRun run;
   run.recipe = std::move(recipe);
-  auto files = read_edit_files(run.recipe, options_of_reading(file, options));
-  if (!files) return files.error();
-  run.files = *std::move(files);
+  run.files = std::move(files);
   edit::RenderOptions render;
-  render.recipe_file = file.string();
-  render.until = options.until;
+  render.recipe_file = recipe_file;
+  render.until = until;
   auto rendered = edit::render(
       run.recipe, std::move(run.files.inputs), render, console.stage("edit"));
   if (!rendered) return rendered.error();

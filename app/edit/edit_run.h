@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "edit/render.h"
 #include <nlohmann/json_fwd.hpp>
@@ -42,6 +43,13 @@ struct EditRunOptions {
                                             EditRecipe recipe,
                                             const EditRunOptions& options,
                                             Console& console);
+/// Renders a recipe whose files were read. `recipe_file` is for the place of errors; may
+/// be empty. Errors: render()'s.
+[[nodiscard]] Result<EditRun> render_read_files(const std::string& recipe_file,
+                                                EditRecipe recipe,
+                                                EditFiles files,
+                                                std::optional<std::size_t> until,
+                                                Console& console);
 /// The same for labelled markers. Errors: run_marker_edit()'s.
 [[nodiscard]] Result<MarkerEditRun> render_marker_recipe(
     const std::filesystem::path& file,

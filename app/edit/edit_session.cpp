@@ -286,6 +286,19 @@ EditOutcome EditSession::loops(EditAsker asker, const live::LoopsRequest& reques
   return EditAccepted{revision().number};
 }
 
+EditOutcome EditSession::jump(EditAsker asker, const live::JumpRequest& request) {
+  if (auto stale = check_base(request.base_revision)) return *stale;
+  auto recipe = request.patch.empty() ? Result<EditRecipe>(recipe_)
+                                      : apply_patch(recipe_, request.patch, avatars_);
+  if (!recipe) return recipe.error();
+  worker_.add(JumpTask{std::move(asker),
+                       revision().number,
+                       *std::move(recipe),
+                       request.op,
+                       request.output});
+  return EditAccepted{revision().number};
+}
+
 EditOutcome EditSession::write(EditAsker asker, const live::ExportRequest& request) {
   if (auto stale = check_base(request.base_revision)) return *stale;
   if (!can_write_) {

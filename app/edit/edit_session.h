@@ -84,6 +84,7 @@ class EditSession {
   /// started.
   [[nodiscard]] EditOutcome preview(EditAsker asker, const live::PreviewRequest& request);
   [[nodiscard]] EditOutcome loops(EditAsker asker, const live::LoopsRequest& request);
+  [[nodiscard]] EditOutcome jump(EditAsker asker, const live::JumpRequest& request);
   [[nodiscard]] EditOutcome write(EditAsker asker, const live::ExportRequest& request);
 
   /// To be called several times a second: bounds the loss by a power cut to one second.

@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "app/edit/edit_jump.h"
+
 namespace marey::app {
 namespace {
 
@@ -206,6 +208,27 @@ void EditWorker::do_task(const LoopsTask& task) {
   out.candidates = edit::find_loops(state, task.options);
   if (task.map) out.map = edit::loop_map(state);
   listener_.on_loops(task.asker, out);
+}
+
+void EditWorker::do_task(const JumpTask& task) {
+  const auto result = rendered(task.recipe, task.op);
+  if (!result) return listener_.on_failed(task.asker, result.error());
+  if (task.output >= static_cast<int>(result->outputs.size())) {
+    return listener_.on_failed(
+        task.asker, bad_input("the edit", "it has no such result", "choose another"));
+  }
+  auto graph = jump_graph_of(task.recipe,
+                             task.op,
+                             files_.inputs,
+                             result->outputs[static_cast<std::size_t>(task.output)]);
+  if (!graph) return listener_.on_failed(task.asker, graph.error());
+  const auto& op = task.recipe.ops[static_cast<std::size_t>(task.op)];
+  listener_.on_jump(task.asker,
+                    {task.revision,
+                     task.op,
+                     task.output,
+                     std::get<JumpOp>(op.parameters).jump,
+                     *std::move(graph)});
 }
 
 void EditWorker::do_task(const ExportTask& task) {

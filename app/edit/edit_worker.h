@@ -37,12 +37,19 @@ struct LoopsTask {
   edit::FindLoopsOptions options;
   bool map = false;
 };
+struct JumpTask {
+  EditAsker asker;
+  int revision = 0;
+  EditRecipe recipe;
+  int op = 0;      ///< Index of an operation `jump` of the recipe.
+  int output = 0;  ///< Index of the motion that it receives.
+};
 struct ExportTask {
   EditAsker asker;
   int revision = 0;
   EditRecipe recipe;
 };
-using EditTask = std::variant<PreviewTask, LoopsTask, ExportTask>;
+using EditTask = std::variant<PreviewTask, LoopsTask, JumpTask, ExportTask>;
 
 /// Renders recipes on a thread of its own. The newest revision comes before the requests
 /// of pages, which come in their order. Files are read again if a recipe names others.
@@ -82,6 +89,7 @@ class EditWorker {
   void do_render(const Render& task);
   void do_task(const PreviewTask& task);
   void do_task(const LoopsTask& task);
+  void do_task(const JumpTask& task);
   void do_task(const ExportTask& task);
   [[nodiscard]] Status read_files(const EditRecipe& recipe);
   [[nodiscard]] Result<edit::Rendered> rendered(const EditRecipe& recipe,

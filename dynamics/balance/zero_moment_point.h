@@ -14,6 +14,9 @@
 
 namespace marey::dynamics {
 
+/// Share of the weight below which a body counts as unloaded.
+inline constexpr double kLoadedShare = 0.2;
+
 /// Ground reaction of one frame, from motion alone. Per kilogram of the body.
 struct GroundReaction {
   glm::dvec3 force_m_s2{0.0};  ///< Acceleration of the centre of mass plus gravity.
@@ -30,10 +33,10 @@ struct ZmpOptions {
 
 /// Computes the ground reaction of every frame (docs/jumps.md, equation of the zero
 /// moment point). Derivatives are those of Savitzky-Golay fits (cubic) over
-/// `smoothing_s`; at the ends the window is one-sided. `momentum_per_kg_m2_s` is the
-/// angular momentum about the centre of mass per kilogram; empty: the cart-table model.
-/// Linear in frames. Preconditions: rate above 0; both spans have the same length unless
-/// the second is empty.
+/// `smoothing_s`; at the ends the window is one-sided (parabola). `momentum_per_kg_m2_s`
+/// is the angular momentum about the centre of mass per kilogram; empty: the cart-table
+/// model. Linear in frames. Preconditions: rate above 0; both spans have the same length
+/// unless the second is empty.
 [[nodiscard]] std::vector<GroundReaction> ground_reactions(
     std::span<const glm::dvec3> com_in_world,
     std::span<const glm::dvec3> momentum_per_kg_m2_s,

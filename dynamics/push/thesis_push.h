@@ -29,8 +29,10 @@ struct ThesisPush {
 
 /// Returns the polynomial that is at rest at height `lowest_m` at x = `lowest_at`, in
 /// closed form: quintic Hermite of the ends plus x^3 (1 - x)^3 (a + b (x - lowest_at)).
-/// nullopt: not finite. It may break the rules of allowed_heights(). Precondition:
-/// 0 < lowest_at < 1.
+/// Accelerations of the ends below free fall count as free fall: a measured end of less,
+/// by noise, would leave no push at all. It may break the rules of allowed_heights().
+/// nullopt: not finite, or duration or gravity not above 0. Allocates nothing.
+/// Precondition: 0 < lowest_at < 1.
 [[nodiscard]] std::optional<ThesisPush> thesis_push(const PushEnds& ends,
                                                     double lowest_at,
                                                     double lowest_m);
@@ -54,8 +56,10 @@ struct HeightInterval {
 /// Returns the heights of the lowest point at x = `lowest_at` for which the force is
 /// never negative, and the body falls before that point and rises after it (6.3.1). The
 /// polynomial is affine in the height, so the heights form one interval. Exact to 1e-9 m
-/// (bounds at 240 instants, then Newton on the one that binds). nullopt: empty. Some ten
-/// microseconds. Accelerations of the ends below free fall count as free fall.
+/// (bounds at 240 steps and the limits at both ends, then Newton on the binding ones).
+/// nullopt: empty; also if the body rises at the start or sinks at the end, or if
+/// thesis_push() has no answer. Accelerations of the ends below free fall count as free
+/// fall. Some five microseconds; allocates nothing. Precondition: 0 < lowest_at < 1.
 [[nodiscard]] std::optional<HeightInterval> allowed_heights(const PushEnds& ends,
                                                             double lowest_at);
 
@@ -64,12 +68,12 @@ struct SpaceColumn {
   double lowest_at = 0.0;
   HeightInterval heights;
 };
-/// Returns the search space of figure 6.7: its columns at `columns` equally spaced x
-/// inside (0, 1). Empty columns are left out; empty: no push of this law exists.
+/// Returns the search space of figure 6.7: its columns at the centres of `columns` equal
+/// parts of (0, 1). Empty columns are left out. Precondition: columns above 0.
 [[nodiscard]] std::vector<SpaceColumn> search_space(const PushEnds& ends,
                                                     int columns = 96);
 
-/// Cost of a lowest point.
+/// Cost of a lowest point. NaN counts as infinite; an infinite cost excludes a point.
 using PushCost = std::function<double(double lowest_at, double lowest_m)>;
 
 /// Returns the squared distance from a wanted lowest point, with a deviation of 0.1 in x
@@ -78,8 +82,10 @@ using PushCost = std::function<double(double lowest_at, double lowest_m)>;
 
 /// Returns the push with the least cost within the search space (6.3.2): scans the
 /// columns, takes the best height of each by golden section, and refines the best
-/// column. nullopt: the space is empty. The space is not convex, so a descent alone may
-/// stop in a local minimum. Some hundred microseconds.
+/// column, to 1e-7 in x and 1e-7 m for a cost with one minimum in each column. The space
+/// is not convex, so a descent alone may stop in a local minimum. nullopt: the space is
+/// empty, or has no finite cost; also, rarely, a space that is narrower in x than a
+/// column. Some hundred microseconds; allocates nothing by itself.
 [[nodiscard]] std::optional<ThesisPush> choose_thesis_push(const PushEnds& ends,
                                                            const PushCost& cost);
 

@@ -13,8 +13,6 @@
 namespace marey::edit {
 namespace {
 
-using Contacts;
-using FootContacts;
 using FrameMarks = std::vector<char>;
 
 constexpr double kMinContact_s = 0.06;

@@ -15,7 +15,6 @@
 namespace marey::edit {
 namespace {
 
-using FootContacts;
 
 void mark(std::vector<char>& marks, int first, int last, char value) {
   const int end = static_cast<int>(marks.size()) - 1;

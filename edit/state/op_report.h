@@ -9,6 +9,7 @@
 
 #include "edit/state/edit_state.h"
 
+#include "core/character.h"
 #include "core/edit/edit_ops.h"
 #include "core/finding.h"
 #include "core/skeleton.h"
@@ -19,6 +20,9 @@ namespace marey::edit {
 struct EditInputs {
   std::map<std::string, EditState> sources;  ///< By EditSource::id.
   std::map<std::string, Skeleton> avatars;   ///< By RetargetOp::avatar.
+  /// Masses on the joints of the first source's body, for `jump`; empty: those of an
+  /// average adult (retarget::place_masses()). Not valid after `retarget`.
+  std::vector<PointMass> masses;
 };
 
 /// One operation and its surroundings, as an operation's function receives them.

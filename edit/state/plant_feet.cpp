@@ -15,8 +15,9 @@
 
 #include "core/base/assert.h"
 #include "core/pose.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/body/normalized_skeleton.h"
+#include "retarget/com/foot_goals.h"
 #include "retarget/contacts/frame_marks.h"
 #include "retarget/feet/adapt_to_ground.h"
 #include "retarget/feet/ground_legs.h"
@@ -209,7 +210,7 @@ void soften_swings(std::span<const double> sink_m,
       const double planned = glm::length(reach) / leg.length_m();
       if (planned <= kFreeExtension) continue;
       const double own = glm::distance(hip, ankle) / leg.length_m();
-      const double share = retarget::smooth_step(away[t] / ramp);
+      const double share = smooth_step(away[t] / ramp);
       const double wanted = planned + share * (soft_extension(planned, own) - planned);
       place.ankle_in_world = settled_hip + (wanted / planned) * reach;
     }
@@ -309,14 +310,7 @@ PlantReport set_feet(EditState& state,
 }
 
 std::vector<FootPlace> foot_places(const EditState& state, int side) {
-  std::vector<FootPlace> out;
-  out.reserve(state.motion.poses.size());
-  PosturesOf postures(state);
-  for (std::size_t t = 0; t < state.motion.poses.size(); ++t) {
-    (void)postures.at(t);
-    out.push_back(postures.foot(side));
-  }
-  return out;
+  return retarget::foot_places(state.motion, state.map, side);
 }
 
 SlideFigures measure_slide(const EditState& state) {

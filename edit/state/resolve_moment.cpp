@@ -16,7 +16,6 @@
 namespace marey::edit {
 namespace {
 
-using FootContacts;
 
 constexpr double kBeyondFrames = 0.5;
 

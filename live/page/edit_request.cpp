@@ -195,6 +195,14 @@ LoopsRequest loops_of(RequestMembers& members) {
   return out;
 }
 
+JumpRequest jump_of(RequestMembers& members) {
+  JumpRequest out;
+  if (members.find("ops_patch") != nullptr) out.patch = patch_of(members);
+  out.op = members.count("op");
+  out.output = members.optional_count("output").value_or(0);
+  return out;
+}
+
 /// Reads the members of all types of changes. Returns false if the type is unknown.
 bool read_body(RequestMembers& members, EditPageRequest& out) {
   const std::string& type = out.type;
@@ -208,6 +216,8 @@ bool read_body(RequestMembers& members, EditPageRequest& out) {
     out.body = preview_of(members, type == "preview");
   } else if (type == "loops") {
     out.body = loops_of(members);
+  } else if (type == "jump") {
+    out.body = jump_of(members);
   } else if (type == "export") {
     out.body = ExportRequest{};
   } else {

@@ -57,6 +57,14 @@ struct LoopsRequest {
   std::optional<double> max_period_s{};
   bool map = false;
 };
+/// Asks for the curves of an operation `jump`, of the revision or after a change that is
+/// not made.
+struct JumpRequest {
+  int base_revision = 0;
+  OpsPatch patch{};  ///< May be empty.
+  int op = 0;        ///< Index of the operation after the patch.
+  int output = 0;
+};
 struct ExportRequest {
   int base_revision = 0;
 };
@@ -71,6 +79,7 @@ struct EditPageRequest {
                RedoRequest,
                PreviewRequest,
                LoopsRequest,
+               JumpRequest,
                ExportRequest>
       body;
 };

@@ -19,6 +19,7 @@ constexpr std::uint8_t kHasPose = 1;
 constexpr std::uint8_t kHasUncertainty = 2;
 constexpr std::uint8_t kHasBalance = 4;
 constexpr std::uint8_t kHasTracking = 8;
+constexpr std::uint8_t kHasZmp = 16;
 
 /// Appends numbers in little-endian order.
 class Writer {
@@ -83,6 +84,9 @@ void write_balance(const PageBalance& balance, Writer& out) {
     out.f32(p.x);
     out.f32(p.y);
   }
+  if (!balance.zmp_xz_m) return;
+  out.f32(balance.zmp_xz_m->x);
+  out.f32(balance.zmp_xz_m->y);
 }
 
 void write_tracking(const PageTracking& tracking, Writer& out) {
@@ -100,6 +104,7 @@ void write_figure(const PageFigure& figure, Writer& out) {
   if (figure.pose != nullptr) flags |= kHasPose;
   if (!figure.uncertainty.empty()) flags |= kHasUncertainty;
   if (figure.balance) flags |= kHasBalance;
+  if (figure.balance && figure.balance->zmp_xz_m) flags |= kHasZmp;
   if (figure.tracking) flags |= kHasTracking;
   out.u8(flags);
   out.u8(0);

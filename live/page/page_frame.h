@@ -26,6 +26,8 @@ namespace marey::live {
 struct PageBalance {
   glm::dvec3 centre_of_mass_in_world{0.0};
   std::span<const glm::dvec2> support_xz_m{};  ///< Support polygon; may be empty.
+  /// Zero moment point on the floor, world X and Z; nullopt: undefined, as in flight.
+  std::optional<glm::dvec2> zmp_xz_m{};
 };
 
 /// Tracking of a live body, for the timeline.

@@ -148,19 +148,31 @@ void TomlWriter::matrix(std::string_view key,
   text_ += "]\n";
 }
 
+void TomlWriter::append_inline(const TomlWriter& keys) {
+  text_ += '{';
+  // Quoted texts hold no line ends: each line is one key.
+  for (std::size_t at = 0; at < keys.text_.size();) {
+    const std::size_t end = keys.text_.find('\n', at);
+    text_ += at == 0 ? " " : ", ";
+    text_.append(keys.text_, at, end - at);
+    at = end + 1;
+  }
+  text_ += " }";
+}
+
+void TomlWriter::inline_table(std::string_view key, const TomlWriter& keys) {
+  start_line(key);
+  append_inline(keys);
+  text_ += '\n';
+}
+
 void TomlWriter::inline_tables(std::string_view key, std::span<const TomlWriter> rows) {
   start_line(key);
   text_ += '[';
   for (const TomlWriter& row : rows) {
-    text_ += "\n  {";
-    // Quoted texts hold no line ends: each line is one key.
-    for (std::size_t at = 0; at < row.text_.size();) {
-      const std::size_t end = row.text_.find('\n', at);
-      text_ += at == 0 ? " " : ", ";
-      text_.append(row.text_, at, end - at);
-      at = end + 1;
-    }
-    text_ += " },";
+    text_ += "\n  ";
+    append_inline(row);
+    text_ += ',';
   }
   text_ += rows.empty() ? "]\n" : "\n]\n";
 }

@@ -35,6 +35,9 @@ class TomlWriter {
   /// Writes an array of rows of `columns` numbers. Precondition: `values` are whole rows.
   void matrix(std::string_view key, std::span<const double> values, std::size_t columns);
 
+  /// Writes an inline table: {a = 1, b = 2}. Precondition: `keys` holds lines of keys
+  /// only, no tables.
+  void inline_table(std::string_view key, const TomlWriter& keys);
   /// Writes an array of inline tables, a line for each. Precondition: the rows hold lines
   /// of keys only, no tables.
   void inline_tables(std::string_view key, std::span<const TomlWriter> rows);
@@ -47,6 +50,7 @@ class TomlWriter {
   void append_row(std::span<const double> values);
   void append_key(std::string_view key);
   void append_quoted(std::string_view value);
+  void append_inline(const TomlWriter& keys);
 
   std::string text_;
 };

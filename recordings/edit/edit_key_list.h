@@ -66,6 +66,10 @@ class KeyList {
     keys_.emplace_back(key);
   }
   template <class... Rest>
+  void part(std::string_view key, const Rest&... /*rest*/) {
+    keys_.emplace_back(key);
+  }
+  template <class... Rest>
   void moments(std::string_view key, const Rest&... /*rest*/) {
     keys_.emplace_back(key);
   }

@@ -127,6 +127,18 @@ class KeyReader {
       if (!in_.ok()) return;
     }
   }
+  /// Reads a table of keys, such as {at = 0.5, height_m = 0.6}.
+  template <class Part>
+  void part(std::string_view key, std::optional<Part> T::*member) {
+    if (!in_.has(key)) return;
+    TomlReader table = in_.table(key);
+    table.set_name(std::string(key));
+    KeyList known;
+    visit_keys(known, KeysOf<Part>{});
+    table.allow(std::vector<std::string_view>(known.keys().begin(), known.keys().end()));
+    KeyReader<Part> reader(table, (out_.*member).emplace());
+    visit_keys(reader, KeysOf<Part>{});
+  }
   void moments(std::string_view key, std::vector<Moment> T::*member) {
     for (TomlReader& row : in_.tables(key)) {
       row.set_name(std::string(key));

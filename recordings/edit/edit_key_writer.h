@@ -118,6 +118,14 @@ class KeyWriter {
     }
     if (!rows.empty()) out_.inline_tables(key, rows);
   }
+  template <class Part>
+  void part(std::string_view key, std::optional<Part> T::*member) {
+    if (!(value_.*member)) return;
+    TomlWriter keys;
+    KeyWriter<Part> writer(keys, *(value_.*member));
+    visit_keys(writer, KeysOf<Part>{});
+    out_.inline_table(key, keys);
+  }
   void moments(std::string_view key, std::vector<Moment> T::*member) {
     std::vector<TomlWriter> rows;
     for (const Moment& at : value_.*member) write_moment(rows.emplace_back(), "at", at);

@@ -21,7 +21,8 @@ inline constexpr std::array<std::string_view, 2> kFilterMethods{"gcv", "butterwo
 inline constexpr std::array<std::string_view, 3> kCutoffRules{"given", "yu", "winter"};
 inline constexpr std::array<std::string_view, 3> kCycleDrifts{"straight", "keep", "none"};
 inline constexpr std::array<std::string_view, 2> kDetected{"supports", "touches"};
-inline constexpr std::array<std::string_view, 1> kBalances{"horizontal"};
+inline constexpr std::array<std::string_view, 2> kPushLaws{"force", "thesis"};
+inline constexpr std::array<std::string_view, 2> kBalances{"horizontal", "zmp"};
 inline constexpr std::array<std::string_view, 4> kContactEdits{
     "set", "clear", "move_start", "move_end"};
 inline constexpr std::array<std::string_view, 2> kFeet{"left", "right"};
@@ -194,7 +195,29 @@ void visit_keys(V& keys, KeysOf<ExaggerateOp> /*of*/) {
 }
 
 template <class V>
-void visit_keys(V& /*keys*/, KeysOf<JumpOp> /*of*/) {}
+void visit_keys(V& keys, KeysOf<EditLowestPoint> /*of*/) {
+  keys.needed_number("at", &EditLowestPoint::at, kShareOfPush);
+  keys.needed_number("height_m", &EditLowestPoint::height_m, kPlace);
+}
+
+template <class V>
+void visit_keys(V& keys, KeysOf<JumpOp> /*of*/) {
+  keys.integer("jump", &JumpOp::jump, kJumpNumber);
+  keys.number("apex_m", &JumpOp::apex_m, kJumpApex);
+  keys.number("apex_by_m", &JumpOp::apex_by_m, kJumpRaise);
+  keys.number("airtime_s", &JumpOp::airtime_s, kJumpAirtime);
+  keys.number("length_m", &JumpOp::length_m, kJumpLength);
+  keys.place("land_m", &JumpOp::landing_in_world);
+  keys.number("box_m", &JumpOp::box_m, kJumpBox);
+  keys.number("push_s", &JumpOp::push_s, kJumpPush);
+  keys.moment("push_start", &JumpOp::push_start);
+  keys.choice("law", &JumpOp::law, kPushLaws);
+  keys.part("lowest", &JumpOp::lowest);
+  keys.number("strength_g", &JumpOp::strength_g, kStrength);
+  keys.number("gravity_m_s2", &JumpOp::gravity_m_s2, kGravity);
+  keys.boolean("ballistic", &JumpOp::ballistic);
+  keys.boolean("keep_momentum", &JumpOp::keep_momentum);
+}
 
 template <class V>
 void visit_keys(V& keys, KeysOf<BalanceOp> /*of*/) {

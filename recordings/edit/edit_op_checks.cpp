@@ -189,6 +189,17 @@ void check_op(TomlReader& in, ExaggerateOp& op) {
           "give the lower frequency as low_hz, or leave high_hz out");
 }
 
+void check_op(TomlReader& in, JumpOp& op) {
+  exclude(in, "apex_m", "apex_by_m");
+  exclude(in, "land_m", "length_m");
+  exclude(in, "land_m", "box_m");
+  if (in.has("lowest") && op.law != EditPushLaw::kThesis) {
+    in.fail("lowest",
+            "\"lowest\" is for the law \"thesis\" only",
+            "add law = \"thesis\", or remove it");
+  }
+}
+
 void check_op(TomlReader& in, CurveOp& op) {
   if (op.keys.empty()) need_one_of(in, {"keys"});
   check_ascending(in, "keys", op.keys);

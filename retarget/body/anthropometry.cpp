@@ -46,45 +46,41 @@ Error bad_mass(std::string cause, std::string next) {
 
 // Heights of the trunk's parts: omphalion and xiphoid over MIDH-CERV, with de Leva's
 // lengths OMPH-MIDH, XYPH-OMPH and CERV-MIDH in mm.
-constexpr SegmentTable kDempster{{0.081, 1.0},
-                                 {0.497, 0.66},
-                                 {0.028, 0.436},
-                                 {0.016, 0.43},
-                                 {0.006, 0.506},
-                                 {0.1, 0.433},
-                                 {0.0465, 0.433},
-                                 {0.0145, 0.5},
-                                 0.5,
-                                 0.5,
-                                 0.75,
-                                 0.75};
-constexpr SegmentTable kDeLevaFemale{{0.0668, 1.0 - 0.4841},
-                                     {0.4257, 1.0 - 0.3782},
-                                     {0.0255, 0.5754},
-                                     {0.0138, 0.4559},
-                                     {0.0056, 0.3427},
-                                     {0.1478, 0.3612},
-                                     {0.0481, 0.4352},
-                                     {0.0129, 0.4014},
+constexpr SegmentTable kDeLevaFemale{{0.0668, 1.0 - 0.4841, {0.271, 0.295, 0.261}},
+                                     {0.4257, 1.0 - 0.3782, {0.379, 0.361, 0.182}},
+                                     {0.0255, 0.5754, {0.278, 0.26, 0.148}},
+                                     {0.0138, 0.4559, {0.261, 0.257, 0.094}},
+                                     {0.0056, 0.3427, {0.244, 0.208, 0.154}},
+                                     {0.1478, 0.3612, {0.369, 0.364, 0.162}},
+                                     {0.0481, 0.4352, {0.267, 0.263, 0.092}},
+                                     {0.0129, 0.4014, {0.299, 0.279, 0.139}},
                                      0.1247 / 0.4257,
                                      181.5 / 614.8,
                                      (0.1247 + 0.1465) / 0.4257,
                                      (181.5 + 205.3) / 614.8};
-constexpr SegmentTable kDeLevaMale{{0.0694, 1.0 - 0.5002},
-                                   {0.4346, 1.0 - 0.4310},
-                                   {0.0271, 0.5772},
-                                   {0.0162, 0.4574},
-                                   {0.0061, 0.3624},
-                                   {0.1416, 0.4095},
-                                   {0.0433, 0.4395},
-                                   {0.0137, 0.4415},
+constexpr SegmentTable kDeLevaMale{{0.0694, 1.0 - 0.5002, {0.303, 0.315, 0.261}},
+                                   {0.4346, 1.0 - 0.4310, {0.384, 0.358, 0.197}},
+                                   {0.0271, 0.5772, {0.285, 0.269, 0.158}},
+                                   {0.0162, 0.4574, {0.276, 0.265, 0.121}},
+                                   {0.0061, 0.3624, {0.288, 0.235, 0.184}},
+                                   {0.1416, 0.4095, {0.329, 0.329, 0.149}},
+                                   {0.0433, 0.4395, {0.251, 0.246, 0.102}},
+                                   {0.0137, 0.4415, {0.257, 0.245, 0.124}},
                                    0.1117 / 0.4346,
                                    145.7 / 603.3,
                                    (0.1117 + 0.1633) / 0.4346,
                                    (145.7 + 215.5) / 603.3};
 
+constexpr GyrationRadii mean(const GyrationRadii& a, const GyrationRadii& b) {
+  return {0.5 * (a.sagittal + b.sagittal),
+          0.5 * (a.transverse + b.transverse),
+          0.5 * (a.longitudinal + b.longitudinal)};
+}
+
 constexpr SegmentRow mean(const SegmentRow& a, const SegmentRow& b) {
-  return {0.5 * (a.mass_share + b.mass_share), 0.5 * (a.com_at + b.com_at)};
+  return {0.5 * (a.mass_share + b.mass_share),
+          0.5 * (a.com_at + b.com_at),
+          mean(a.gyration, b.gyration)};
 }
 
 constexpr SegmentTable mean(const SegmentTable& a, const SegmentTable& b) {
@@ -103,6 +99,20 @@ constexpr SegmentTable mean(const SegmentTable& a, const SegmentTable& b) {
 }
 
 constexpr SegmentTable kDeLeva = mean(kDeLevaFemale, kDeLevaMale);
+
+// Masses and centres of Dempster. Radii of gyration of de Leva.
+constexpr SegmentTable kDempster{{0.081, 1.0, kDeLeva.head.gyration},
+                                 {0.497, 0.66, kDeLeva.trunk.gyration},
+                                 {0.028, 0.436, kDeLeva.upper_arm.gyration},
+                                 {0.016, 0.43, kDeLeva.forearm.gyration},
+                                 {0.006, 0.506, kDeLeva.hand.gyration},
+                                 {0.1, 0.433, kDeLeva.thigh.gyration},
+                                 {0.0465, 0.433, kDeLeva.shank.gyration},
+                                 {0.0145, 0.5, kDeLeva.foot.gyration},
+                                 0.5,
+                                 0.5,
+                                 0.75,
+                                 0.75};
 
 }  // namespace
 

@@ -10,11 +10,22 @@
 
 namespace marey::retarget {
 
+/// Radii of gyration of a segment about its centre of mass, as shares of its length
+/// between de Leva's end points. Axes of the anatomical position: sagittal is from back
+/// to front, transverse from side to side. For a hand, sagittal is across the palm's
+/// plane; for a foot, vertical.
+struct GyrationRadii {
+  double sagittal = 0.0;
+  double transverse = 0.0;
+  double longitudinal = 0.0;
+};
+
 /// One segment of an anthropometric table.
 struct SegmentRow {
   double mass_share = 0.0;  ///< Share of the whole body's mass.
   /// Centre of mass from the proximal to the distal end point, over their distance.
   double com_at = 0.0;
+  GyrationRadii gyration{};
 };
 
 /// A table by segment; both sides are alike. The end points exist in skeletons: joint
@@ -32,6 +43,10 @@ struct SegmentRow {
 /// joint centres: MIDS-MIDH, WJC-DAC3, KJC-AJC, VERT-CERV. Measured on living people; a
 /// standing body has the centre of mass at 0.56. The mean of its women and men is the
 /// default, since the sex of the subject is not known.
+///
+/// Radii of gyration: those of de Leva's table 4, between the end points named above. The
+/// thesis gives none for Dempster's segments: that table has the mean of de Leva's women
+/// and men, over the lengths between de Leva's end points.
 struct SegmentTable {
   SegmentRow head;   ///< Base of the neck to ear canal (Dempster) or vertex (de Leva).
   SegmentRow trunk;  ///< Between the hip centres to between the shoulder centres.

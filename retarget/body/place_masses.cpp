@@ -11,6 +11,8 @@
 #include "core/pose.h"
 #include "retarget/body/anthropometry.h"
 #include "retarget/body/foot_shape.h"
+#include "retarget/body/rotation_from_t_pose.h"
+#include "retarget/body/segment_inertia.h"
 
 namespace marey::retarget {
 namespace {
@@ -32,7 +34,14 @@ constexpr double kKnuckleInHand = 0.459;
 struct Placed {
   JointIndex joint{};
   glm::dvec3 p_in_joint{0.0};
+  glm::dmat3 inertia_per_kg_m2{0.0};
 };
+
+// Transverse axes of the anatomical position as they are in the T-pose: that of the upper
+// arm is the elbow's hinge, that of forearm and hand is in the palm, which faces down.
+constexpr glm::dvec3 kTransverse{1.0, 0.0, 0.0};
+constexpr glm::dvec3 kTransverseOfUpperArm{0.0, 1.0, 0.0};
+constexpr glm::dvec3 kTransverseOfHand{0.0, 0.0, 1.0};
 
 struct Rest {
   const Skeleton& skeleton;
@@ -49,6 +58,30 @@ struct Rest {
   }
   [[nodiscard]] Placed on(JointIndex j, const glm::dvec3& p_in_world) const {
     return {j, inverse(world_from_joint[index(j)]) * p_in_world};
+  }
+  // The inertia of a segment of that extent in the world, in world axes.
+  [[nodiscard]] glm::dmat3 inertia(const GyrationRadii& radii,
+                                   JointIndex j,
+                                   const glm::dvec3& along_m,
+                                   const glm::dvec3& transverse_in_t_pose) const {
+    return inertia_per_kg(
+        radii,
+        {along_m, rotation_from_t_pose(map, world_from_joint, j) * transverse_in_t_pose});
+  }
+  // The same inertia in the axes of the joint's frame.
+  [[nodiscard]] glm::dmat3 in_joint(JointIndex j, const glm::dmat3& in_world) const {
+    const glm::dmat3 turn = glm::mat3_cast(world_from_joint[index(j)].rotation);
+    return glm::transpose(turn) * in_world * turn;
+  }
+  [[nodiscard]] Placed segment(const SegmentRow& row,
+                               JointIndex j,
+                               const glm::dvec3& com_in_world,
+                               const glm::dvec3& along_m,
+                               const glm::dvec3& transverse_in_t_pose) const {
+    Placed out = on(j, com_in_world);
+    out.inertia_per_kg_m2 =
+        in_joint(j, inertia(row.gyration, j, along_m, transverse_in_t_pose));
+    return out;
   }
   [[nodiscard]] std::optional<glm::dvec3> tip(JointIndex j) const {
     const auto& tip = skeleton[j].tip_in_joint;
@@ -81,14 +114,13 @@ glm::dvec3 neck_base(const Rest& rest) {
   return {guess.x, std::max(guess.y, rest.place(top).y), guess.z};
 }
 
-glm::dvec3 trunk_com(const Rest& rest) {
+// Between the shoulder centres.
+glm::dvec3 mid_shoulder(const Rest& rest) {
   const glm::dvec3 hips = mid_hip(rest);
   const auto left = rest.joint(B::kLeftUpperArm);
   const auto right = rest.joint(B::kRightUpperArm);
-  const glm::dvec3 shoulders = left && right
-                                   ? 0.5 * (rest.place(*left) + rest.place(*right))
-                                   : hips + kShouldersInTrunk * (neck_base(rest) - hips);
-  return hips + rest.table.trunk.com_at * (shoulders - hips);
+  return left && right ? 0.5 * (rest.place(*left) + rest.place(*right))
+                       : hips + kShouldersInTrunk * (neck_base(rest) - hips);
 }
 
 // Share of the trunk's mass below a share of its height.
@@ -110,7 +142,9 @@ void add_trunk(const Rest& rest, double mass_kg, std::vector<PointMass>& out) {
   const double squared = std::max(glm::dot(up, up), 1e-12);
   std::vector<double> shares;
   std::vector<glm::dvec3> middles;
-  glm::dvec3 off = trunk_com(rest);
+  const glm::dvec3 along = mid_shoulder(rest) - bottom;
+  const glm::dvec3 centre = bottom + rest.table.trunk.com_at * along;
+  glm::dvec3 off = centre;
   double height = 0.0;
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const bool last = i + 1 == joints.size();
@@ -126,10 +160,20 @@ void add_trunk(const Rest& rest, double mass_kg, std::vector<PointMass>& out) {
   }
   // All shift by the same amount, so that their common centre is the table's trunk
   // centre.
+  std::vector<SegmentPart> parts;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    parts.push_back({shares[i], middles[i] + off - centre});
+  }
+  const glm::dmat3 inertia = part_inertia_per_kg(
+      rest.inertia(rest.table.trunk.gyration, rest.map.hips(), along, kTransverse),
+      parts);
   for (std::size_t i = 0; i < joints.size(); ++i) {
     if (shares[i] <= 0.0) continue;
     const Placed at = rest.on(joints[i], middles[i] + off);
-    out.push_back({at.joint, at.p_in_joint, shares[i] * mass_kg});
+    out.push_back({at.joint,
+                   at.p_in_joint,
+                   shares[i] * mass_kg,
+                   rest.in_joint(joints[i], inertia)});
   }
 }
 
@@ -143,7 +187,11 @@ Placed head_com(const Rest& rest) {
       skull + glm::dvec3(0, kVertexFromHeadInLegs * rest.map.leg_length_m, 0);
   const glm::dvec3 vertex = head ? rest.tip(*head).value_or(guess) : guess;
   const glm::dvec3 end = rest.dempster ? skull + kEarInHead * (vertex - skull) : vertex;
-  return rest.on(carrier, base + rest.table.head.com_at * (end - base));
+  return rest.segment(rest.table.head,
+                      carrier,
+                      base + rest.table.head.com_at * (end - base),
+                      vertex - base,
+                      kTransverse);
 }
 
 // Upper arm, forearm and hand.
@@ -157,10 +205,10 @@ std::array<Placed, 3> arm_coms(const Rest& rest, int side) {
   glm::dvec3 along(left ? 1.0 : -1.0, 0.0, 0.0);
   glm::dvec3 from = clavicle ? rest.place(*clavicle) : neck_base(rest);
   const SegmentTable& t = rest.table;
-  const std::array<double, 3> com_at{
-      t.upper_arm.com_at,
-      t.forearm.com_at,
-      t.hand.com_at * (rest.dempster ? kKnuckleInHand : 1.0)};
+  std::array<SegmentRow, 3> rows{t.upper_arm, t.forearm, t.hand};
+  if (rest.dempster) rows[2].com_at *= kKnuckleInHand;
+  constexpr std::array kTransverses{
+      kTransverseOfUpperArm, kTransverseOfHand, kTransverseOfHand};
   std::array<Placed, 3> out;
   for (std::size_t i = 0; i < 3; ++i) {
     if (const auto joint = rest.joint(bones[i])) {
@@ -176,7 +224,8 @@ std::array<Placed, 3> arm_coms(const Rest& rest, int side) {
       to = *tip;
     }
     if (glm::length(to - from) > 1e-9) along = glm::normalize(to - from);
-    out[i] = rest.on(carrier, from + com_at[i] * (to - from));
+    const glm::dvec3 com = from + rows[i].com_at * (to - from);
+    out[i] = rest.segment(rows[i], carrier, com, to - from, kTransverses[i]);
     from = to;
   }
   return out;
@@ -188,25 +237,30 @@ Placed foot_com(const Rest& rest, int side) {
   const glm::dquat& t_pose_from_joint = rest.map.joints[index(ankle)].t_pose_from_joint;
   const FootMap& foot = rest.map.feet[static_cast<std::size_t>(side)];
   glm::dvec3 com = rest.table.foot.com_at * foot.ball_from_ankle_in_t_pose;
+  double tip_m = (1.0 + kToesInBall) * foot.ball_from_ankle_in_t_pose.z;
+  const auto toes = rest.joint(left ? B::kLeftToes : B::kRightToes);
+  if (const auto tip = toes ? rest.tip(*toes) : std::nullopt) {
+    tip_m = (t_pose_from_joint * rest.on(ankle, *tip).p_in_joint).z;
+  }
+  const double heel_m = -kHeelInFoot * tip_m;
   if (!rest.dempster) {
-    double tip_m = (1.0 + kToesInBall) * foot.ball_from_ankle_in_t_pose.z;
-    const auto toes = rest.joint(left ? B::kLeftToes : B::kRightToes);
-    if (const auto tip = toes ? rest.tip(*toes) : std::nullopt) {
-      tip_m = (t_pose_from_joint * rest.on(ankle, *tip).p_in_joint).z;
-    }
-    const double heel_m = -kHeelInFoot * tip_m;
     com = {0.5 * foot.ball_from_ankle_in_t_pose.x,
            -0.5 * foot.ankle_height_m,
            heel_m + rest.table.foot.com_at * (tip_m - heel_m)};
   }
-  return {ankle, glm::conjugate(t_pose_from_joint) * com};
+  const glm::dmat3 in_t_pose = inertia_per_kg(
+      rest.table.foot.gyration, {glm::dvec3(0.0, 0.0, tip_m - heel_m), kTransverse});
+  const glm::dmat3 turn = glm::mat3_cast(t_pose_from_joint);
+  return {ankle,
+          glm::conjugate(t_pose_from_joint) * com,
+          glm::transpose(turn) * in_t_pose * turn};
 }
 
 void add_limbs(const Rest& rest,
                const std::array<double, kHumanBoneCount>& kg,
                std::vector<PointMass>& out) {
   const auto add = [&](const Placed& at, B bone) {
-    out.push_back({at.joint, at.p_in_joint, kg[index(bone)]});
+    out.push_back({at.joint, at.p_in_joint, kg[index(bone)], at.inertia_per_kg_m2});
   };
   for (int side = 0; side < 2; ++side) {
     const auto bone = [&](B left) { return side == 0 ? left : mirrored(left); };
@@ -215,11 +269,12 @@ void add_limbs(const Rest& rest,
     add(arm[1], bone(B::kLeftLowerArm));
     add(arm[2], bone(B::kLeftHand));
     const LimbMap& leg = rest.map.leg(side);
-    const auto between = [&](JointIndex a, JointIndex b, double at) {
-      return rest.on(a, rest.place(a) + at * (rest.place(b) - rest.place(a)));
+    const auto between = [&](JointIndex a, JointIndex b, const SegmentRow& row) {
+      const glm::dvec3 along = rest.place(b) - rest.place(a);
+      return rest.segment(row, a, rest.place(a) + row.com_at * along, along, kTransverse);
     };
-    add(between(leg.upper, leg.lower, rest.table.thigh.com_at), bone(B::kLeftUpperLeg));
-    add(between(leg.lower, leg.end, rest.table.shank.com_at), bone(B::kLeftLowerLeg));
+    add(between(leg.upper, leg.lower, rest.table.thigh), bone(B::kLeftUpperLeg));
+    add(between(leg.lower, leg.end, rest.table.shank), bone(B::kLeftLowerLeg));
     add(foot_com(rest, side), bone(B::kLeftFoot));
   }
 }
@@ -239,7 +294,8 @@ Result<std::vector<PointMass>> place_masses(const Skeleton& skeleton,
   std::vector<PointMass> masses;
   add_trunk(rest, (*kg)[index(B::kHips)], masses);
   const Placed head = head_com(rest);
-  masses.push_back({head.joint, head.p_in_joint, (*kg)[index(B::kHead)]});
+  masses.push_back(
+      {head.joint, head.p_in_joint, (*kg)[index(B::kHead)], head.inertia_per_kg_m2});
   add_limbs(rest, *kg, masses);
   return masses;
 }

@@ -18,6 +18,10 @@ namespace marey::retarget {
 /// The mass of a missing part is carried by its parent: an arm without a hand is extended
 /// straight by an average hand.
 ///
+/// Each mass has the inertia of its segment, with the longitudinal axis along the segment
+/// in the T-pose. The parts of the trunk together have the inertia of the table's trunk
+/// in the T-pose.
+///
 /// Errors: those of weigh_segments().
 /// Precondition: `map` was made from `skeleton`.
 [[nodiscard]] Result<std::vector<PointMass>> place_masses(const Skeleton& skeleton,

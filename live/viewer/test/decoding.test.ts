@@ -15,7 +15,7 @@ const two = [{joints: new Array(2)}, {joints: new Array(1)}];
 /** Two skeletons: one with pose, uncertainty, a support triangle and tracking data; one that
  *  is absent. Written by hand after docs/formats/README.md. */
 function frameBytes(frame = 7): ArrayBuffer {
-  const bytes = new ArrayBuffer(24 + (4 + 12 + 32 + 8 + 4 + 16 + 24 + 8) + 4);
+  const bytes = new ArrayBuffer(24 + (4 + 12 + 32 + 8 + 4 + 16 + 24 + 8) + 4 + 8);
   const view = new DataView(bytes);
   view.setUint8(0, 1);
   view.setUint8(1, 1);
@@ -24,7 +24,7 @@ function frameBytes(frame = 7): ArrayBuffer {
   view.setFloat64(8, 0.25, true);
   view.setFloat64(16, 12.5, true);
   let at = 24;
-  view.setUint8(at, 15);
+  view.setUint8(at, 31);
   view.setUint16(at + 2, 2, true);
   at += 4;
   const floats = (...values: number[]): void => {
@@ -42,7 +42,9 @@ function frameBytes(frame = 7): ArrayBuffer {
   floats(4, 5, 6);
   view.setUint16(at, 3, true);
   at += 4;
-  floats(0, 0, 1, 0, 0, 1, 0.75);
+  floats(0, 0, 1, 0, 0, 1);
+  floats(0.25, 0.5);
+  floats(0.75);
   view.setUint8(at, 9);
   at += 4;
   view.setUint16(at + 2, 1, true);
@@ -78,10 +80,30 @@ test('a frame is read as it was written', () => {
   assert.deepEqual([...there.centre_of_mass_in_world], [4, 5, 6]);
   assert.equal(there.corners, 3);
   assert.deepEqual([...there.support_xz.subarray(0, 6)], [0, 0, 1, 0, 0, 1]);
+  assert.ok(there.hasZmp);
+  assert.deepEqual([...there.zmp_xz], [0.25, 0.5]);
   assert.equal(there.residual_px, 0.75);
   assert.equal(there.bears, 9);
   assert.equal(gone.hasPose, false);
+  assert.equal(gone.hasZmp, false);
   assert.equal(gone.hasTracking, false);
+});
+
+test('a zero moment point needs a balance, and a copied frame has it', () => {
+  const bytes = frameBytes();
+  const frame = new SceneFrame(two);
+  decodeFrame(new DataView(bytes), 0, frame);
+  const copy = new SceneFrame(two);
+  copy.skeletons[0].copy(frame.skeletons[0]);
+  assert.ok(copy.skeletons[0].hasZmp);
+  assert.deepEqual([...copy.skeletons[0].zmp_xz], [0.25, 0.5]);
+  const view = new DataView(new ArrayBuffer(24 + 4));
+  new Uint8Array(view.buffer).set([1, 1, 1, 0]);
+  view.setUint8(24, 16);
+  view.setUint16(26, 1, true);
+  const alone = new SceneFrame([two[1]]);
+  assert.equal(decodeFrame(view, 0, alone), 28);
+  assert.equal(alone.skeletons[0].hasZmp, false);
 });
 
 test('a frame that is truncated anywhere is rejected', () => {

@@ -76,6 +76,22 @@ test('a change removes excluded keys and adds needed keys', () => {
   assert.deepEqual(set(faded, {overlap_s: 0.1}), {do: 'splice@1', source: 'a', overlap_s: 0.1});
 });
 
+test('wishes of a jump exclude each other, and a lowest point has the law that uses it', () => {
+  const jump = {do: 'jump@1', apex_by_m: 0.1};
+  assert.deepEqual(set(jump, {apex_m: 1.5}), {do: 'jump@1', apex_m: 1.5});
+  assert.deepEqual(set({do: 'jump@1', length_m: 1, box_m: 0.3}, {land_m: [0, 0.3, 1]}),
+    {do: 'jump@1', land_m: [0, 0.3, 1]});
+  assert.deepEqual(set({do: 'jump@1', land_m: [0, 0.3, 1], airtime_s: 0.5}, {box_m: 0.2}),
+    {do: 'jump@1', airtime_s: 0.5, box_m: 0.2});
+  const low = set(jump, {lowest: {at: 0.6, height_m: 0.7}});
+  assert.deepEqual(low, {...jump, law: 'thesis', lowest: {at: 0.6, height_m: 0.7}});
+  assert.deepEqual(wrong(low), {});
+  assert.deepEqual(set(low, {law: 'force'}), jump);
+  assert.deepEqual(set(low, {law: 'thesis'}), low);
+  assert.equal(summaryOf(low), 'higher by 0.1\u00a0m; thesis; lowest point share of the push ' +
+    '0.6, height 0.7\u00a0m');
+});
+
 test('a constraint and a detection exclude each other', () => {
   const touches = set({do: 'constrain@1', adapt: true}, {detect: 'touches'});
   assert.deepEqual(wrong(touches), {});
@@ -105,6 +121,13 @@ test('mistakes are found at their keys', () => {
   const cases: [OpKeys, string][] = [
     [{do: 'cut@1', from_s: 2, to_s: 1}, 'to'],
     [{do: 'cut@1', from_s: -1}, 'from'],
+    [{do: 'jump@1', apex_m: 1, apex_by_m: 0.1}, 'apex_m'],
+    [{do: 'jump@1', land_m: [0, 0, 1], box_m: 0.1}, 'land_m'],
+    [{do: 'jump@1', lowest: {at: 0.6, height_m: 0.7}}, 'lowest'],
+    [{do: 'jump@1', law: 'thesis', lowest: {at: 1, height_m: 0.7}}, 'lowest.at'],
+    [{do: 'jump@1', law: 'thesis', lowest: {at: 0.5}}, 'lowest.height_m'],
+    [{do: 'jump@1', law: 'thesis', lowest: 0.7}, 'lowest'],
+    [{do: 'jump@1', gravity_m_s2: 31}, 'gravity_m_s2'],
     [{do: 'keep@1', spans: [{from_s: 2, to_s: 1}]}, 'spans.0.to'],
     [{do: 'split@1', instants: []}, 'instants'],
     [{do: 'split@1', instants: [{at_s: 1}, {at_s: 1}]}, 'instants.1.at'],
@@ -151,8 +174,7 @@ test('a cycle has both ends or none', () => {
 
 test('new operations are valid at once', () => {
   const empty = {...shown, duration_s: 0, now_s: 0};
-  for (const {name, isReserved} of OPS) {
-    if (isReserved) continue;
+  for (const {name} of OPS) {
     assert.equal(whyNot(name, shown, []), '');
     assert.deepEqual(wrong(newOp(name, shown)), {}, name);
     assert.deepEqual(wrong(newOp(name, empty)), {}, name);
@@ -215,8 +237,8 @@ test('summaries name the values that are not defaults', () => {
   assert.equal(summaryOf({do: 'level@1', tilt: false}), 'not: rotate the motion');
   assert.equal(summaryOf({do: 'constrain@1', constraint: {type: 'Distance', name: 'rail',
     segment: 'rightHand', start_s: 1}}), 'Distance “rail” of right hand, from 1.00\u00a0s');
-  for (const {name, isReserved} of OPS) {
-    if (!isReserved) assert.doesNotMatch(summaryOf(newOp(name, shown)), /undefined|NaN/, name);
+  for (const {name} of OPS) {
+    assert.doesNotMatch(summaryOf(newOp(name, shown)), /undefined|NaN/, name);
   }
 });
 

@@ -73,8 +73,10 @@ export function encodeFrame(skeletons, frame, time_s, sent_s) {
   const J = JOINTS.length;
   const padded = (J + 3) & ~3;
   const each = 4 + 12 + 16 * J;
+  // None in flight.
+  const isDown = frame % 60 < 54;
   const total = 24 + skeletons.reduce((sum, {estimate, balance, tracking}) => sum + each +
-    (estimate ? 4 * J + padded : 0) + (balance ? 16 + 8 * 4 : 0) + (tracking ? 8 : 0), 0);
+    (estimate ? 4 * J + padded : 0) + (balance ? 16 + 8 * 4 + (isDown ? 8 : 0) : 0) + (tracking ? 8 : 0), 0);
   const out = Buffer.alloc(total);
   out.writeUInt8(1, 0);
   out.writeUInt8(1, 1);
@@ -85,7 +87,8 @@ export function encodeFrame(skeletons, frame, time_s, sent_s) {
   let at = 24;
   const float = (value) => { at = out.writeFloatLE(value, at); };
   skeletons.forEach(({estimate, balance, tracking, raise = 0, droop = 0}, k) => {
-    out.writeUInt8(1 + (estimate ? 2 : 0) + (balance ? 4 : 0) + (tracking ? 8 : 0), at);
+    out.writeUInt8(1 + (estimate ? 2 : 0) + (balance ? 4 : 0) + (tracking ? 8 : 0) +
+      (balance && isDown ? 16 : 0), at);
     out.writeUInt16LE(J, at + 2);
     at += 4;
     const time = time_s - 0.1 * k;
@@ -101,6 +104,7 @@ export function encodeFrame(skeletons, frame, time_s, sent_s) {
       [sway, 0.98, 0.02].forEach(float);
       at = out.writeUInt16LE(4, at) + 2;
       [-0.15, -0.12, 0.15, -0.12, 0.15, 0.18, -0.15, 0.18].forEach(float);
+      if (isDown) [3 * sway, 0.03 + 0.2 * Math.sin(3.1 * time)].forEach(float);
     }
     if (tracking) {
       float(0.4 + 0.1 * Math.sin(frame / 9));

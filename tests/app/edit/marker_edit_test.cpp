@@ -321,6 +321,7 @@ class SilentListener : public app::EditListener {
                   const app::EditResult& /*result*/) override {}
   void on_loops(const app::EditAsker& /*asker*/,
                 const app::EditLoops& /*loops*/) override {}
+  void on_jump(const app::EditAsker& /*asker*/, const app::EditJump& /*jump*/) override {}
   void on_exported(const app::EditAsker& /*asker*/,
                    const app::EditExported& /*exported*/) override {}
   void on_failed(const app::EditAsker& /*asker*/, const Error& /*error*/) override {}

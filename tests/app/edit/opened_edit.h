@@ -51,6 +51,10 @@ class Reports : public EditListener {
     const std::lock_guard lock(mutex);
     loops = found;
   }
+  void on_jump(const EditAsker& /*asker*/, const EditJump& made) override {
+    const std::lock_guard lock(mutex);
+    jump = made;
+  }
   void on_exported(const EditAsker& /*asker*/, const EditExported& written) override {
     const std::lock_guard lock(mutex);
     exported = written;
@@ -69,6 +73,7 @@ class Reports : public EditListener {
   int preview_frames = 0;
   RenderedMessage preview;
   EditLoops loops;
+  EditJump jump;
   EditExported exported;
   std::map<std::string, std::string> failed;
 };

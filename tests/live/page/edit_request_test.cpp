@@ -69,6 +69,14 @@ TEST(EditRequest, ReadsTheOtherTypes) {
   ASSERT_TRUE(loops) << loops.error().message();
   EXPECT_EQ(std::get<LoopsRequest>(loops->body).min_period_s, 0.5);
   EXPECT_TRUE(std::get<LoopsRequest>(loops->body).map);
+  const auto jump = read_edit_request(
+      R"({"type":"jump","base_revision":3,"op":2,"output":1,"ops_patch":[{"remove":0}]})");
+  ASSERT_TRUE(jump) << jump.error().message();
+  EXPECT_EQ(std::get<JumpRequest>(jump->body).base_revision, 3);
+  EXPECT_EQ(std::get<JumpRequest>(jump->body).op, 2);
+  EXPECT_EQ(std::get<JumpRequest>(jump->body).output, 1);
+  EXPECT_EQ(std::get<JumpRequest>(jump->body).patch.size(), 1U);
+  EXPECT_TRUE(read_edit_request(R"({"type":"jump","base_revision":3,"op":0})"));
   EXPECT_TRUE(read_edit_request(R"({"type":"undo","base_revision":3})"));
   EXPECT_TRUE(read_edit_request(R"({"type":"redo","base_revision":3})"));
   EXPECT_TRUE(read_edit_request(R"({"type":"export","base_revision":3})"));
@@ -125,6 +133,10 @@ TEST(EditRequest, DeclinesBadMessagesWithTheReason) {
        "the member \"ops_patch\" is unknown here"},
       {R"({"type":"loops","base_revision":1,"min_period_s":"1"})",
        "min_period_s is not a time"},
+      {R"({"type":"jump","base_revision":1})", "op is missing"},
+      {R"({"type":"jump","base_revision":1,"op":-1})", "op is not a whole number"},
+      {R"({"type":"jump","base_revision":1,"op":0,"ops_patch":[]})",
+       "ops_patch is not a list"},
       {with_op(R"({"a":null})"), "null"},
       {with_op(R"({"a":18446744073709551615})"), "too large"},
       {with_op(R"({"a b":1})"), "invalid key \"a b\""},

@@ -56,6 +56,23 @@ TEST(PageFrame, HasTheBytesOfTheProtocol) {
                 bytes({0, 0, 25, 0}));
 }
 
+TEST(PageFrame, HasTheZeroMomentPointAfterThePolygonWhereItIsDefined) {
+  const std::array<glm::dvec2, 1> support{{{2.0, 1.0}}};
+  std::array<PageFigure, 1> figures{
+      {{.balance = PageBalance{{0.5, 1.0, 2.0}, support, glm::dvec2(0.5, 2.0)},
+        .tracking = PageTracking{}}}};
+  std::string out;
+  append_frame({.figures = figures}, out);
+  EXPECT_EQ(out.substr(24, 36),
+            bytes({4 + 8 + 16, 0, 0, 0}) + kHalf + kOne + kTwo + bytes({1, 0, 0, 0}) +
+                kTwo + kOne + kHalf + kTwo);
+  figures[0].balance->zmp_xz_m.reset();
+  std::string without;
+  append_frame({.figures = figures}, without);
+  EXPECT_EQ(without.size() + 8, out.size());
+  EXPECT_EQ(without[24], 4 + 8);
+}
+
 TEST(PageFrame, IsLaidOutForTypedArrays) {
   for (std::size_t joints = 1; joints <= 9; ++joints) {
     const std::vector<JointUncertainty> uncertainty(joints);

@@ -202,9 +202,46 @@ TEST(EditRecipeFile, ReadsEveryKeyOfContacts) {
   (void)op_of<PlantOp>("\"plant@1\"\n");
   (void)op_of<MirrorOp>("\"mirror@1\"\n");
   (void)op_of<CutOp>("\"cut@1\"\n");
-  (void)op_of<JumpOp>("\"jump@1\"\n");
   EXPECT_EQ(op_of<BalanceOp>("\"balance@1\"\nmode = \"horizontal\"\n").mode,
             EditBalance::kHorizontal);
+  EXPECT_EQ(op_of<BalanceOp>("\"balance@1\"\nmode = \"zmp\"\n").mode, EditBalance::kZmp);
+}
+
+TEST(EditRecipeFile, ReadsEveryKeyOfJumps) {
+  const auto jump = op_of<JumpOp>(
+      "\"jump@1\"\njump = 2\napex_by_m = -0.1\nairtime_s = 0.5\nlength_m = 1.25\n"
+      "box_m = 0.4\npush_s = 0.3\npush_start = \"squat\"\nlaw = \"thesis\"\n"
+      "lowest = {at = 0.6, height_m = 0.7}\nstrength_g = 3\ngravity_m_s2 = 3.7\n"
+      "ballistic = true\nkeep_momentum = false\n");
+  EXPECT_EQ(jump.jump, 2);
+  EXPECT_FALSE(jump.apex_m || jump.landing_in_world);
+  EXPECT_EQ(jump.apex_by_m, -0.1);
+  EXPECT_EQ(jump.airtime_s, 0.5);
+  EXPECT_EQ(jump.length_m, 1.25);
+  EXPECT_EQ(jump.box_m, 0.4);
+  EXPECT_EQ(jump.push_s, 0.3);
+  EXPECT_EQ(jump.push_start, Moment(AtAnnotation{"squat", 0}));
+  EXPECT_EQ(jump.law, EditPushLaw::kThesis);
+  EXPECT_EQ(jump.lowest, (EditLowestPoint{0.6, 0.7}));
+  EXPECT_EQ(jump.strength_g, 3.0);
+  EXPECT_EQ(jump.gravity_m_s2, 3.7);
+  EXPECT_TRUE(jump.ballistic);
+  EXPECT_FALSE(jump.keep_momentum);
+  const auto landing =
+      op_of<JumpOp>("\"jump@1\"\napex_m = 1.4\nland_m = [0.1, 0.4, 2]\n");
+  EXPECT_EQ(landing.apex_m, 1.4);
+  EXPECT_EQ(landing.landing_in_world, glm::dvec3(0.1, 0.4, 2.0));
+}
+
+TEST(EditRecipeFile, AJumpWithoutKeysHasTheDefaults) {
+  const auto jump = op_of<JumpOp>("\"jump@1\"\n");
+  EXPECT_EQ(jump.jump, 1);
+  EXPECT_FALSE(jump.apex_m || jump.apex_by_m || jump.airtime_s || jump.length_m);
+  EXPECT_FALSE(jump.landing_in_world || jump.box_m || jump.push_s || jump.push_start);
+  EXPECT_EQ(jump.law, EditPushLaw::kForce);
+  EXPECT_EQ(jump.gravity_m_s2, 9.81);
+  EXPECT_FALSE(jump.ballistic);
+  EXPECT_TRUE(jump.keep_momentum);
 }
 
 TEST(EditRecipeFile, ReadsEveryKeyOfPoses) {

@@ -87,10 +87,8 @@ TEST(EditRecipeProperty, EveryKeyIsWritten) {
     }
     const EditOp op = random_edit_op(0, kind);
     for (const std::string& key : recipe::edit_op_keys(op.parameters)) {
-      const bool is_default_only =
-          std::holds_alternative<BalanceOp>(op.parameters) && key == "mode";
       // Random rotations have no short form in degrees.
-      if (is_default_only || key == "rotation_deg") continue;
+      if (key == "rotation_deg") continue;
       const bool is_written = all.find("\n" + key + " = ") != std::string::npos ||
                               all.find("[op." + key + "]") != std::string::npos;
       EXPECT_TRUE(is_written) << name(op.parameters) << ": " << key;

@@ -284,8 +284,29 @@ void fill(RecipeDice& dice, ExaggerateOp& op) {
   op.low_hz = dice.between(0.0, 2.0);
   if (dice.chance()) op.high_hz = op.low_hz + dice.between(0.1, 8.0);
 }
-void fill(RecipeDice& /*dice*/, JumpOp& /*op*/) {}
-void fill(RecipeDice& /*dice*/, BalanceOp& /*op*/) {}
+void fill(RecipeDice& dice, JumpOp& op) {
+  op.jump = 1 + dice.below(4);
+  (dice.chance() ? op.apex_m : op.apex_by_m) = dice.maybe(0.1, 2.0);
+  op.airtime_s = dice.maybe(0.1, 1.0);
+  if (dice.chance()) {
+    op.landing_in_world = dice.place();
+  } else {
+    op.length_m = dice.maybe(0.0, 3.0);
+    op.box_m = dice.maybe(-0.5, 0.8);
+  }
+  op.push_s = dice.maybe(0.1, 1.0);
+  op.push_start = dice.maybe_moment();
+  op.strength_g = dice.maybe(1.5, 6.0);
+  op.gravity_m_s2 = dice.maybe(0.5, 30.0).value_or(op.gravity_m_s2);
+  op.ballistic = dice.chance();
+  op.keep_momentum = dice.chance();
+  op.law = dice.chance() ? EditPushLaw::kThesis : EditPushLaw::kForce;
+  if (op.law != EditPushLaw::kThesis || dice.chance()) return;
+  op.lowest = EditLowestPoint{dice.between(0.1, 0.9), dice.between(0.3, 1.0)};
+}
+void fill(RecipeDice& dice, BalanceOp& op) {
+  op.mode = dice.chance() ? EditBalance::kZmp : EditBalance::kHorizontal;
+}
 void fill(RecipeDice& dice, TagOp& op) {
   op.text = dice.word();
 }

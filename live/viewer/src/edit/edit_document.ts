@@ -5,8 +5,9 @@
 // after the other, and keeps the newest revision and its result. Knows no elements of the page.
 
 import type {
-  EditErrorWords, EditPageWords, EditWords, ExportedWords, LoopsOptions, LoopsWords, OpKeys,
-  OpStep, OpWords, PreviewParts, PreviewWords, ProgressWords, RenderedWords, RevisionWords,
+  EditErrorWords, EditPageWords, EditWords, ExportedWords, JumpOptions, JumpWords, LoopsOptions,
+  LoopsWords, OpKeys, OpStep, OpWords, PreviewParts, PreviewWords, ProgressWords, RenderedWords,
+  RevisionWords,
 } from '../protocol/edit_protocol';
 
 /** Steps that are computed when they are sent, from the operations at that time. null: the
@@ -128,6 +129,15 @@ export class EditDocument {
     return answer.type === 'loops' ? answer : null;
   }
 
+  /** Returns the curves of a jump, or why there are none. The listener receives no reason,
+   *  because the page asks by itself. */
+  async jump(options: JumpOptions): Promise<JumpWords | string> {
+    await this.changes;
+    const answer = await this.ask({type: 'jump', ...this.base(), ...options}, true);
+    if (answer.type === 'jump') return answer;
+    return answer.type === 'error' ? answer.text : 'The recipe has changed meanwhile.';
+  }
+
   /** Writes the results into the folder of the command line. null: refused. */
   async exportResults(): Promise<ExportedWords | null> {
     await this.changes;
@@ -159,13 +169,15 @@ export class EditDocument {
     return true;
   }
 
-  private async ask(words: EditPageWords & {id: string}): Promise<Answer> {
+  /** `isQuiet`: the listener does not receive why the request was refused. */
+  private async ask(words: EditPageWords & {id: string}, isQuiet = false): Promise<Answer> {
     const answer = await new Promise<Answer>((resolve) => {
       this.waiting.set(words.id, resolve);
       if (this.send(words)) return;
       this.waiting.delete(words.id);
       resolve(NOT_CONNECTED);
     });
+    if (isQuiet) return answer;
     if (answer.type === 'error') this.listener.onRefused(answer.text);
     else if (answer.type === 'stale') {
       this.listener.onRefused('Another page or program changed the recipe at the same time; ' +

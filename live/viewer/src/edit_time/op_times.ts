@@ -46,10 +46,11 @@ const SNAPPED_FRAMES = 1e-3;
 /** Operations that annotate only: the poses after them are those before. */
 const ANNOTATING: readonly string[] = ['tag', 'event', 'curve'];
 /** Operations after which an instant has another time. Splices add to the end. */
-const TIMED: readonly string[] = ['cut', 'keep', 'split', 'retime', 'scale_time', 'cyclify'];
+const TIMED: readonly string[] = ['cut', 'keep', 'split', 'retime', 'scale_time', 'cyclify',
+  'jump'];
 /** Operations of which each one may have a span. */
 export const SPANNED: readonly string[] = ['cut', 'filter', 'level', 'place', 'path', 'plant',
-  'exaggerate', 'balance', 'offset', 'tag'];
+  'exaggerate', 'balance', 'jump', 'offset', 'tag'];
 
 export function rounded(value: number, decimals = 3): number {
   const scale = 10 ** decimals;

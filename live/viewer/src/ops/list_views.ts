@@ -11,8 +11,8 @@ import type {FieldHost, FieldView} from './field_parts';
 import {booleanField, choiceField, groupsField, instantField, numberField, rotationField,
   textField, vectorField} from './field_views';
 import {newConstraint, newRow} from './new_op';
-import type {Field, PointsField, RowsField} from './op_fields';
-import {rounded, tablesOf, withChanges} from './op_values';
+import type {Field, PointsField, RowsField, TableField} from './op_fields';
+import {rounded, tableOf, tablesOf, withChanges} from './op_values';
 import type {Keys, Problems} from './op_values';
 
 function viewOf(field: Field, host: FieldHost): FieldView {
@@ -27,6 +27,7 @@ function viewOf(field: Field, host: FieldHost): FieldView {
     case 'vector': return vectorField(field, host);
     case 'points': return new PointsView(field, host);
     case 'rows': return new RowsView(field, host);
+    case 'table': return new TableView(field, host);
     case 'constraint': return new ConstraintView(field, host);
   }
 }
@@ -167,8 +168,35 @@ class PointsView implements FieldView {
   }
 }
 
-function tableOf(value: OpValue | undefined): Keys | null {
-  return typeof value === 'object' && !Array.isArray(value) ? value : null;
+/** A table of keys that can be absent. */
+class TableView implements FieldView {
+  readonly element: HTMLElement;
+  private readonly frame: FieldFrame;
+  private readonly add: HTMLButtonElement;
+  private readonly remove: HTMLButtonElement;
+  private readonly set: FieldSet;
+  private table: Keys | null = null;
+
+  constructor(private readonly field: TableField, host: FieldHost) {
+    this.add = button({onclick: () => host.set({[field.key]: {...field.fresh}}, true)}, 'Set');
+    this.remove = button({onclick: () => host.set({[field.key]: undefined}, true)},
+      `Leave ${field.absent}`);
+    this.set = new FieldSet(field.fields, {namesId: host.namesId, shown: () => host.shown(),
+      set: (changes, isDone) => host.set(
+        {[field.key]: withChanges(this.table ?? {}, changes, field.fields)}, isDone)});
+    this.frame = new FieldFrame(field, null, this.set.element, this.add, this.remove);
+    this.element = this.frame.element;
+  }
+
+  show(keys: Keys, problems: Problems, prefix: string, isForced: boolean): void {
+    const {key} = this.field;
+    this.table = tableOf(keys[key]);
+    this.add.hidden = this.table !== null;
+    this.remove.hidden = this.table === null;
+    this.set.element.hidden = this.table === null;
+    if (this.table) this.set.show(this.table, problems, `${prefix}${key}.`, isForced);
+    this.frame.tell(problems.get(prefix + key) ?? '');
+  }
 }
 
 /** The table of a constraint. */

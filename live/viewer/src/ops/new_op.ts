@@ -94,6 +94,7 @@ export function newOp(name: string, shown: Shown): OpKeys {
     pose: () => ({at_s: now_s, bone: 'hips', moved_m: [0, 0, 0]}),
     offset: () => ({bone: 'hips', moved_m: [0, 0, 0]}),
     place: () => ({position_xz_m: [0, 0]}),
+    jump: () => ({apex_by_m: 0.1}),
     splice: () => ({source: sources[0] ?? ''}),
     contacts: () => ({detect: true}),
     constrain: () => ({detect: 'supports'}),

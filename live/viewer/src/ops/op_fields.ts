@@ -36,11 +36,15 @@ export interface PointsField extends Common {
 }
 /** A list of tables. */
 export interface RowsField extends Common {kind: 'rows'; row: string; fields: readonly Field[]}
+/** A table of keys. `fresh`: its values when it is added. */
+export interface TableField extends Common {
+  kind: 'table'; fields: readonly Field[]; fresh: Readonly<Record<string, number>>;
+}
 /** The table of a constraint; its keys depend on its type. */
 export interface ConstraintField extends Common {kind: 'constraint'}
 
 export type Field = NumberField | ChoiceField | TextField | PlainField | VectorField |
-  PointsField | RowsField | ConstraintField;
+  PointsField | RowsField | TableField | ConstraintField;
 
 export type Rest = Partial<Pick<Common, 'help' | 'required' | 'absent' | 'default'>>;
 
@@ -70,6 +74,16 @@ export const LIMITS = {
   value: {unit: '', min: -1e9, max: 1e9, step: 0.1},
   importance: {unit: '', min: 1e-6, max: 1e6, step: 1},
   range: {unit: '', min: 1, max: 1e6, step: 1, isWhole: true},
+  jump: {unit: '', min: 1, max: 10000, step: 1, isWhole: true},
+  apex: {unit: 'm', min: 0.01, max: 100, step: 0.01},
+  rise: {unit: 'm', min: -100, max: 100, step: 0.01},
+  distance: {unit: 'm', min: 0, max: 100, step: 0.01},
+  box: {unit: 'm', min: -20, max: 20, step: 0.01},
+  flight: {unit: 's', min: 0.02, max: 20, step: 0.01},
+  push: {unit: 's', min: 0.05, max: 10, step: 0.01},
+  share: {unit: '', min: 0.001, max: 0.999, step: 0.01},
+  strength: {unit: 'g', min: 0.5, max: 100, step: 0.1},
+  gravity: {unit: 'm/s²', min: 0.5, max: 30, step: 0.01},
 } satisfies Record<string, Limits>;
 
 /** Angles of `rotation_deg`, and frames of instants. */
@@ -109,6 +123,11 @@ export function points(key: string, label: string, axes: string, rest: Rest = {}
 export function rows(key: string, label: string, row: string, fields: readonly Field[],
   rest: Rest = {}): RowsField {
   return {...common(key, label, rest), kind: 'rows', row, fields};
+}
+
+export function table(key: string, label: string, fields: readonly Field[],
+  fresh: Readonly<Record<string, number>>, rest: Rest = {}): TableField {
+  return {...common(key, label, rest), kind: 'table', fields, fresh};
 }
 
 /** Returns the keys of the recipe that belong to a field. */

@@ -78,7 +78,8 @@ export function moveTarget(from: number, before: number): number | null {
   return to === from ? null : to;
 }
 
-const TIME_CHANGES = new Set(['cut', 'keep', 'split', 'splice', 'retime', 'scale_time', 'cyclify']);
+const TIME_CHANGES = new Set(['cut', 'keep', 'split', 'splice', 'retime', 'scale_time', 'cyclify',
+  'jump']);
 
 /** True if instants are the same in the motions that have the first `a` and the first `b`
  *  operations. */

@@ -20,6 +20,12 @@ const EXCLUSIVE: Record<string, readonly (readonly string[])[]> = {
   constrain: [['constraint'], ['detect', 'objects', 'changes']],
 };
 
+/** Keys of `jump`: setting the first one removes the others. */
+const JUMP_EXCLUDES: readonly (readonly [string, readonly string[]])[] = [
+  ['apex_m', ['apex_by_m']], ['apex_by_m', ['apex_m']], ['land_m', ['length_m', 'box_m']],
+  ['length_m', ['land_m']], ['box_m', ['land_m']],
+];
+
 /** Operations that need at least one of these fields. */
 const NEED_ONE: Record<string, readonly string[]> = {
   place: ['position_xz_m', 'heading_deg'],
@@ -50,6 +56,7 @@ export function completed(op: OpKeys, changes: Changes): Changes {
     all.blend_s ??= undefined;
   }
   if (name === 'constrain') completeConstrain(op, changes, all);
+  if (name === 'jump') completeJump(changes, all);
   return all;
 }
 
@@ -80,6 +87,15 @@ function completeConstrain(op: OpKeys, changes: Changes, all: Changes): void {
   }
 }
 
+function completeJump(changes: Changes, all: Changes): void {
+  for (const [key, others] of JUMP_EXCLUDES) {
+    if (changes[key] === undefined) continue;
+    for (const other of others) all[other] ??= undefined;
+  }
+  if ('law' in changes && changes.law !== 'thesis') all.lowest ??= undefined;
+  if (changes.lowest !== undefined) all.law ??= 'thesis';
+}
+
 /** Returns the operation with these changes, and no others. */
 export function changedOp(op: OpKeys, changes: Changes): OpKeys {
   return withChanges(op, changes, [...schemaOf(op).fields, ...COMMON]);
@@ -91,6 +107,7 @@ export function isIdleField(op: OpKeys, key: string): boolean {
     case 'filter':
       if (key === 'order') return op.method === 'butterworth';
       return (key === 'cutoff' || key === 'cutoff_hz') && op.method !== 'butterworth';
+    case 'jump': return key === 'lowest' && op.law !== 'thesis' && !('lowest' in op);
     case 'constrain':
       if (key === 'objects') return op.detect !== 'touches';
       if (key === 'blend_s') return op.constraint === undefined && !('blend_s' in op);
@@ -145,6 +162,10 @@ function checkPoints(value: OpValue | undefined, problems: Problems): void {
   });
 }
 
+function labelOf(name: string, key: string): string {
+  return schemaOf({do: name}).fields.find((field) => field.key === key)?.label ?? key;
+}
+
 const CHECKS: Record<string, (op: OpKeys, problems: Problems) => void> = {
   keep: (op, problems) => tablesOf(op.spans).forEach((span, i) =>
     checkSpan(span, 'from', 'to', problems, `spans.${i}.`)),
@@ -175,6 +196,13 @@ const CHECKS: Record<string, (op: OpKeys, problems: Problems) => void> = {
     if (typeof op.constraint !== 'object' || Array.isArray(op.constraint)) return;
     checkSpan(op.constraint, 'start', 'stop', problems, 'constraint.');
     checkBox(op.constraint, 'constraint.', problems);
+  },
+  jump: (op, problems) => {
+    for (const [key, others] of JUMP_EXCLUDES) {
+      const other = others.find((one) => one in op);
+      if (key in op && other && !problems.has(other)) problems.set(key, `Excludes “${labelOf('jump', other)}”`);
+    }
+    if ('lowest' in op && op.law !== 'thesis') problems.set('lowest', 'Needs the law “thesis”');
   },
   exaggerate: (op, problems) => {
     if (Number(op.high_hz ?? 0) !== 0 && Number(op.high_hz) <= Number(op.low_hz ?? 0)) {

@@ -4,7 +4,7 @@
 // The operations of a recipe and their keys, as in docs/formats/edit_recipe.md. A test compares
 // both.
 
-import {choice, LIMITS, number, plain, points, rows, text, vector} from './op_fields';
+import {choice, LIMITS, number, plain, points, rows, table, text, vector} from './op_fields';
 import type {Field} from './op_fields';
 
 export interface OpSchema {
@@ -17,8 +17,6 @@ export interface OpSchema {
   common: readonly ('span' | 'groups' | 'blend')[];
   /** The span is its main key. */
   isOfSpan?: boolean;
-  /** No version of marey applies it yet. */
-  isReserved?: boolean;
 }
 
 export const GROUPS: readonly string[] = ['root', 'trunk', 'head', 'left_arm', 'right_arm',
@@ -97,6 +95,33 @@ const SHAPE: OpSchema[] = [
     bone, rotation, vector('moved_m', 'Moved by', 'xyz',
       {help: 'Displacement of a hand, a foot or the hips'}),
   ], common: ['span', 'blend']},
+  {name: 'jump', title: 'Jump', help: 'Makes one jump higher, longer or different', fields: [
+    number('jump', 'Number of the jump', LIMITS.jump, {default: 1, help: 'Within the span'}),
+    number('apex_by_m', 'Higher by', LIMITS.rise,
+      {default: 0, help: 'Added to the highest point of the centre of mass'}),
+    number('apex_m', 'Highest point', LIMITS.apex, {absent: 'as captured',
+      help: 'Height of the centre of mass above the floor of the take-off'}),
+    number('airtime_s', 'Time in the air', LIMITS.flight, {absent: 'as captured'}),
+    number('length_m', 'Length', LIMITS.distance, {absent: 'as captured',
+      help: 'Distance of the feet between take-off and landing'}),
+    number('box_m', 'Onto a box', LIMITS.box, {absent: 'as captured',
+      help: 'Height of the floor of the landing above that of the take-off'}),
+    vector('land_m', 'Landing', 'xyz', {absent: 'as captured',
+      help: 'Place of the feet, in the world'}),
+    number('push_s', 'Duration of the push', LIMITS.push, {absent: 'as captured'}),
+    plain('instant', 'push_start', 'Start of the push', {absent: 'detected'}),
+    choice('law', 'Law', ['force', 'thesis'], {default: 'force', help: 'Force: the captured ' +
+      'push with the smallest correction. Thesis: a polynomial of degree 7'}),
+    table('lowest', 'Lowest point', [
+      number('at', 'Share of the push', LIMITS.share, need),
+      number('height_m', 'Height', LIMITS.place, need)], {at: 0.6, height_m: 0.7},
+    {absent: 'as captured', help: 'Lowest point of the centre of mass during the push'}),
+    number('strength_g', 'Largest push', LIMITS.strength,
+      {absent: '1.3 times the captured peak, at least 2.5'}),
+    number('gravity_m_s2', 'Gravity', LIMITS.gravity, {default: 9.81}),
+    plain('boolean', 'ballistic', 'The captured flight becomes a parabola', {default: false}),
+    plain('boolean', 'keep_momentum', 'Constant angular momentum in flight', {default: true}),
+  ], common: ['span']},
   {name: 'mirror', title: 'Mirror', help: 'Exchanges left and right', fields: [], common: []},
 ];
 
@@ -168,7 +193,9 @@ const CONTACT: OpSchema[] = [
       plain('boolean', 'adapt', 'Adapt the motion now', {default: false}),
     ], common: ['span', 'blend']},
   {name: 'balance', title: 'Balance', help: 'Keeps the centre of mass over the feet', fields: [
-    choice('mode', 'Mode', ['horizontal'], {default: 'horizontal'})], common: ['span', 'blend']},
+    choice('mode', 'Mode', ['horizontal', 'zmp'], {default: 'horizontal', help: 'Horizontal: the ' +
+      'centre of mass of a standing body. Zmp: the zero moment point of the whole motion'})],
+  common: ['span', 'blend']},
 ];
 
 const NOTES: OpSchema[] = [
@@ -194,10 +221,8 @@ export const OP_MENU: readonly (readonly [string, readonly OpSchema[]])[] = [
   ['Notes', NOTES], ['Output', OUTPUT],
 ];
 
-/** All operations, also reserved ones. */
-export const OPS: readonly OpSchema[] = [...OP_MENU.flatMap(([, ops]) => ops),
-  {name: 'jump', title: 'Jump', help: 'Reserved; no version of marey applies it yet', fields: [],
-    common: [], isReserved: true}];
+/** All operations. */
+export const OPS: readonly OpSchema[] = OP_MENU.flatMap(([, ops]) => ops);
 
 const BY_NAME = new Map(OPS.map((op) => [op.name, op]));
 

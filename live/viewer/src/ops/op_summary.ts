@@ -65,6 +65,11 @@ function count(value: OpValue | undefined, one: string): string {
   return `${length} ${length === 1 ? one : one.endsWith('x') ? `${one}es` : `${one}s`}`;
 }
 
+function tableWords(fields: readonly Field[], table: Keys): string {
+  return fields.filter(({key}) => key in table).map((field) => fieldWords(field, table))
+    .join(', ');
+}
+
 function fieldWords(field: Field, keys: Keys): string {
   const value = keys[field.key];
   const label = field.label.toLowerCase();
@@ -83,6 +88,7 @@ function fieldWords(field: Field, keys: Keys): string {
     case 'groups': return (value as string[]).map((one) => one.replace('_', ' ')).join(', ');
     case 'points': return count(value, 'point');
     case 'rows': return count(value, field.row);
+    case 'table': return `${label} ${tableWords(field.fields, value as Keys)}`;
     case 'constraint': return constraintWords(value);
   }
 }
@@ -104,9 +110,9 @@ export function summaryOf(op: OpKeys): string {
 }
 
 const UNITS: readonly (readonly [string, string])[] = [
-  ['_cm_per_s', 'cm/s'], ['_deg_per_s', '°/s'], ['_m_per_s2', 'm/s²'], ['_m_per_s', 'm/s'],
+  ['_kg_m2_per_s', 'kg m²/s'], ['_cm_per_s', 'cm/s'], ['_deg_per_s', '°/s'], ['_m_per_s2', 'm/s²'], ['_m_per_s', 'm/s'],
   ['_mm', 'mm'], ['_ms', 'ms'], ['_deg', '°'], ['_hz', 'Hz'], ['_frames', 'frames'], ['_m', 'm'],
-  ['_s', 's'],
+  ['_g', 'g'], ['_s', 's'],
 ];
 
 /** Returns the words, the value and the unit of a figure by its name: displaced_mm. */

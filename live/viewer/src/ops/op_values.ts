@@ -70,6 +70,11 @@ export function tablesOf(value: OpValue | undefined): Keys[] {
     typeof one === 'object' && !Array.isArray(one)) : [];
 }
 
+/** Returns a table; null: absent, or of another type. */
+export function tableOf(value: OpValue | undefined): Keys | null {
+  return typeof value === 'object' && !Array.isArray(value) ? value : null;
+}
+
 /** Returns what is wrong with a number; empty: nothing. */
 export function numberProblem(value: OpValue | undefined,
   {min, max, isWhole}: Pick<NumberField, 'min' | 'max' | 'isWhole'>): string {
@@ -147,6 +152,10 @@ export function checkKeys(fields: readonly Field[], keys: Keys, problems: Proble
         const wrong = vectorProblem(point, field.axes.length, field);
         if (wrong) problems.set(`${path}.${i}`, wrong);
       });
+    } else if (field.kind === 'table') {
+      const table = tableOf(value);
+      if (table) checkKeys(field.fields, table, problems, `${path}.`);
+      else problems.set(path, 'Not a table');
     } else if (field.kind === 'constraint') {
       const table = value as Keys;
       checkKeys(constraintFields(table.type), table, problems, `${path}.`);

@@ -14,7 +14,8 @@ const LAYERS: [Exclude<keyof Shown, 'colouring'>, string, string][] = [
   ['skin', 'Skin', 'Show the skin of avatars, otherwise their bones'],
   ['bones', 'Bones', 'Show bones also for avatars with skin'],
   ['uncertainty', 'Uncertainty', 'A sphere of two sigma around every joint'],
-  ['balance', 'Balance', 'Centre of mass, its plumb line and the support polygon'],
+  ['balance', 'Balance', 'Centre of mass, its plumb line, the support polygon and the zero ' +
+    'moment point: green within the polygon, red outside'],
   ['cameras', 'Cameras', 'Positions and fields of view of the cameras'],
   ['handles', 'Handles', 'Constraints that can be dragged'],
   ['names', 'Names', 'Names of bodies, cameras and points'],
@@ -28,6 +29,13 @@ const MEANINGS = {
     'above 15 mm',
 };
 
+/** Marks of the balance. */
+const MARKS = [
+  ['ball', 'centre of mass', 'Green above the support polygon, red outside of it'],
+  ['ring', 'zero moment point', 'The place on the floor at which the push of the floor acts. ' +
+    'Red outside of the support polygon: such a motion needs other supports. Not in flight'],
+] as const;
+
 export class ViewPanel {
   readonly section: Section;
 
@@ -38,9 +46,11 @@ export class ViewPanel {
   }
 
   private legend(): HTMLElement {
-    return el('ul', {class: 'legend', 'aria-label': 'Colours of segments'},
+    return el('ul', {class: 'legend', 'aria-label': 'Colours of segments, and marks'},
       ...SOURCES.map((source) => el('li', {title: MEANINGS[source]},
-        el('span', {class: `swatch fill-${source}`, 'aria-hidden': 'true'}), ` ${source}`)));
+        el('span', {class: `swatch fill-${source}`, 'aria-hidden': 'true'}), ` ${source}`)),
+      ...MARKS.map(([mark, name, title]) => el('li', {title},
+        el('span', {class: `balance-mark balance-${mark}`, 'aria-hidden': 'true'}), ` ${name}`)));
   }
 
   private layers(stage: Stage, changed: () => void): HTMLElement {

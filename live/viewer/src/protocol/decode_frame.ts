@@ -13,6 +13,7 @@ const HAS_POSE = 1;
 const HAS_DOUBT = 2;
 const HAS_BALANCE = 4;
 const HAS_TRACKING = 8;
+const HAS_ZMP = 16;
 /** Maximum stored corners of a support polygon; feet and hands have far fewer. */
 const MAX_CORNERS = 64;
 
@@ -33,6 +34,9 @@ export class SkeletonFrame {
   /** x z of every corner on the floor. */
   readonly support_xz = new Float32Array(2 * MAX_CORNERS);
   corners = 0;
+  hasZmp = false;
+  /** x z of the zero moment point on the floor. */
+  readonly zmp_xz = new Float32Array(2);
   /** NaN: unknown. */
   residual_px = NaN;
   /** Bits: left heel, left ball, right heel, right ball. */
@@ -48,14 +52,17 @@ export class SkeletonFrame {
 
   /** Copies another figure's values. Precondition: the same number of joints. */
   copy(other: SkeletonFrame): void {
-    const {hasPose, hasUncertainty, hasBalance, hasTracking, corners, residual_px, bears} = other;
-    Object.assign(this, {hasPose, hasUncertainty, hasBalance, hasTracking, corners, residual_px, bears});
+    const {hasPose, hasUncertainty, hasBalance, hasTracking, hasZmp} = other;
+    const {corners, residual_px, bears} = other;
+    Object.assign(this, {hasPose, hasUncertainty, hasBalance, hasTracking, hasZmp, corners,
+      residual_px, bears});
     this.root_in_world.set(other.root_in_world);
     this.parent_from_joint.set(other.parent_from_joint);
     this.sigma_m.set(other.sigma_m);
     this.source.set(other.source);
     this.centre_of_mass_in_world.set(other.centre_of_mass_in_world);
     this.support_xz.set(other.support_xz);
+    this.zmp_xz.set(other.zmp_xz);
   }
 }
 
@@ -99,6 +106,7 @@ function decodeSkeleton(view: DataView, start: number, into: SkeletonFrame): num
   into.hasUncertainty = (flags & HAS_DOUBT) !== 0;
   into.hasBalance = (flags & HAS_BALANCE) !== 0;
   into.hasTracking = (flags & HAS_TRACKING) !== 0;
+  into.hasZmp = into.hasBalance && (flags & HAS_ZMP) !== 0;
   let at = start + 4;
   if (into.hasPose) {
     if (at + 12 + 16 * joints > view.byteLength) return -1;
@@ -123,7 +131,9 @@ function decodeBalance(view: DataView, start: number, into: SkeletonFrame): numb
   if (at + 8 * corners > view.byteLength) return -1;
   into.corners = Math.min(corners, MAX_CORNERS);
   readFloats(view, at, into.support_xz, 2 * into.corners);
-  return at + 8 * corners;
+  at += 8 * corners;
+  if (!into.hasZmp) return at;
+  return at + 8 <= view.byteLength ? readFloats(view, at, into.zmp_xz, 2) : -1;
 }
 
 function decodeTracking(view: DataView, start: number, into: SkeletonFrame): number {

@@ -128,6 +128,43 @@ export interface LoopsWords {
   candidates: LoopCandidateWords[]; map: LoopMapWords | null;
 }
 
+/** A jump of the motion before the operation. */
+export interface FoundJumpWords {
+  start_s: number; takeoff_s: number; apex_s: number; landing_s: number | null;
+  end_s: number | null; airtime_s: number | null; rise_m: number;
+  /** Vertical acceleration of the captured flight; 0: unknown. */
+  fall_m_s2: number;
+  /** Captured lowest point of the push; `lowest_at` is a share of its duration. */
+  lowest_at: number | null; lowest_m: number;
+  takeoff: 'measured' | 'inferred'; landing: 'measured' | 'inferred'; findings: FindingWords[];
+}
+
+export type PushRule = 'force' | 'fall' | 'rise';
+/** Share of the push, lowest and highest allowed height [m], and the rules that bind there. */
+export type SpaceColumnWords = [number, number, number, PushRule, PushRule];
+/** A lowest point of a push: share of its duration, and height of the centre of mass. */
+export interface LowestWords {at: number; height_m: number}
+
+export interface JumpPhasesWords {
+  start_s: number; lowest_s: number; takeoff_s: number; apex_s: number; landing_s: number;
+  end_s: number;
+}
+
+export interface JumpWords {
+  type: 'jump'; id: string; revision: number; op: number; output: number;
+  /** Which of `jumps` the operation changes, from 1. */
+  number: number;
+  jumps: FoundJumpWords[];
+  /** Why the wishes cannot be met; empty: they can. */
+  refusal: string;
+  /** Times of the new motion; the curves have the same size or are empty. */
+  time_s: number[];
+  height_m: (number | null)[]; captured_height_m: (number | null)[];
+  push_g: (number | null)[]; captured_push_g: (number | null)[];
+  phases: JumpPhasesWords | null; strength_g: number | null;
+  space: SpaceColumnWords[]; lowest: LowestWords | null;
+}
+
 export interface AcceptedWords {type: 'accepted'; id: string; revision: number}
 export interface StaleWords {
   type: 'stale'; id: string; about: string; base_revision: number; revision: number;
@@ -140,10 +177,10 @@ export interface EditErrorWords {type: 'error'; id?: string; about?: string; tex
 
 /** Messages that only marey edit sends. */
 export type EditWords = RevisionWords | ProgressWords | RenderedWords | PreviewWords |
-  LoopsWords | AcceptedWords | StaleWords | ExportedWords;
+  LoopsWords | JumpWords | AcceptedWords | StaleWords | ExportedWords;
 
 export const EDIT_TYPES: readonly string[] = ['revision', 'progress', 'rendered', 'preview',
-  'loops', 'accepted', 'stale', 'exported'] satisfies EditWords['type'][];
+  'loops', 'jump', 'accepted', 'stale', 'exported'] satisfies EditWords['type'][];
 
 /** Which part of which motion is rendered for a preview. */
 export interface PreviewParts {until?: number | null; output?: number; span?: Span}
@@ -153,6 +190,8 @@ export interface LoopsOptions {
   map?: boolean;
 }
 
+export interface JumpOptions {op: number; output?: number; ops_patch?: OpStep[]}
+
 interface Asked {base_revision: number; id: string}
 
 /** Messages from the page of marey edit. */
@@ -161,4 +200,5 @@ export type EditPageWords =
   | ({type: 'undo' | 'redo' | 'export'} & Asked)
   | ({type: 'preview'; ops_patch: OpStep[]} & Asked & PreviewParts)
   | ({type: 'render'} & Asked & PreviewParts)
-  | ({type: 'loops'} & Asked & LoopsOptions);
+  | ({type: 'loops'} & Asked & LoopsOptions)
+  | ({type: 'jump'} & Asked & JumpOptions);

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Balance: the centre of mass, its vertical line, and the support polygon.
+// Balance: the centre of mass, its vertical line, the support polygon, and the zero moment point.
 
 import {
-  BufferAttribute, BufferGeometry, Color, DoubleSide, DynamicDrawUsage, Group, Line,
-  LineBasicMaterial, LineLoop, Mesh, MeshBasicMaterial, SphereGeometry,
+  BufferAttribute, BufferGeometry, CircleGeometry, Color, DoubleSide, DynamicDrawUsage, Group, Line,
+  LineBasicMaterial, LineLoop, Mesh, MeshBasicMaterial, RingGeometry, SphereGeometry,
 } from 'three';
 import type {SkeletonFrame} from '../protocol/decode_frame';
 import type {Vector} from '../protocol/protocol';
@@ -42,11 +42,16 @@ export class BalanceView {
     opacity: 0.8});
   private readonly fill = new MeshBasicMaterial({side: DoubleSide, transparent: true,
     opacity: 0.22, depthWrite: false});
+  private readonly zmpMark = new MeshBasicMaterial({depthTest: false, side: DoubleSide,
+    transparent: true});
   private readonly centre: Mesh;
   private readonly foot: Mesh;
   private readonly area: Mesh;
   private readonly outline: LineLoop;
   private readonly plumb: Line;
+  /** A ring with a dot: the centre of mass is a ball. */
+  private readonly zmp: Mesh;
+  private readonly zmpDot: Mesh;
   private readonly good = new Color();
   private readonly poor = new Color();
 
@@ -66,7 +71,11 @@ export class BalanceView {
     const plumb = new BufferGeometry();
     plumb.setAttribute('position', this.plumbEnds);
     this.plumb = new Line(plumb, this.line);
-    this.object.add(this.area, this.outline, this.plumb, this.centre, this.foot);
+    this.zmp = new Mesh(new RingGeometry(0.03, 0.044, 24), this.zmpMark);
+    this.zmpDot = new Mesh(new CircleGeometry(0.013, 16), this.zmpMark);
+    for (const part of [this.zmp, this.zmpDot]) part.rotation.x = -Math.PI / 2;
+    this.object.add(this.area, this.outline, this.plumb, this.centre, this.foot, this.zmp,
+      this.zmpDot);
     for (const part of this.object.children) {
       part.frustumCulled = false;
       part.renderOrder = 4;
@@ -102,10 +111,24 @@ export class BalanceView {
     this.plumbEnds.needsUpdate = true;
     this.centre.position.set(x + dx, y + dy, z + dz);
     this.foot.position.set(x + dx, floor_m + ABOVE_FLOOR_M, z + dz);
+    this.updateZmp(frame, corners, floor_m);
+  }
+
+  /** Red outside of the polygon: the feet alone cannot bear the motion. */
+  private updateZmp({hasZmp, zmp_xz: [x, z], support_xz}: SkeletonFrame, corners: number,
+    floor_m: number): void {
+    const [dx, , dz] = this.offset;
+    this.zmp.visible = hasZmp;
+    this.zmpDot.visible = hasZmp;
+    if (!hasZmp) return;
+    this.zmpMark.color.copy(carries(support_xz, corners, x, z) ? this.good : this.poor);
+    for (const part of [this.zmp, this.zmpDot]) {
+      part.position.set(x + dx, floor_m + ABOVE_FLOOR_M, z + dz);
+    }
   }
 
   dispose(): void {
     for (const part of this.object.children) (part as Mesh).geometry.dispose();
-    for (const material of [this.mark, this.line, this.fill]) material.dispose();
+    for (const material of [this.mark, this.line, this.fill, this.zmpMark]) material.dispose();
   }
 }
