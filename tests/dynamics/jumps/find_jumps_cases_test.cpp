@@ -202,7 +202,7 @@ TEST(FindJumps, OneFootedJumpsStandOnThatFoot) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     MadeJumpOptions options = random_jump_options(seed, 60.0);
     options.one_footed = true;
-    const MadeJump made = made_jump(testing::random_flights(seed), options);
+    const MadeJump made = made_jump(marey::testing::random_flights(seed), options);
     const auto jumps = find_jumps(made.track);
     ASSERT_EQ(jumps.size(), made.flights.size()) << seed;
     for (std::size_t i = 0; i < jumps.size(); ++i) {

@@ -27,7 +27,7 @@ void expect_parabola(const Jump& jump, const MadeFlightTruth& truth, double tole
 
 TEST(FindJumps, EveryJumpOfAMadeSequenceIsFound) {
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
-    const auto flights = testing::random_flights(seed);
+    const auto flights = marey::testing::random_flights(seed);
     const MadeJumpOptions options = random_jump_options(seed, 60.0);
     const MadeJump made = made_jump(flights, options);
     const auto jumps = find_jumps(made.track);
@@ -69,7 +69,7 @@ TEST(FindJumps, NoiseMovesTheEventsByMilliseconds) {
   int expected = 0;
   double sum_ms = 0.0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-    const auto flights = testing::random_flights(seed);
+    const auto flights = marey::testing::random_flights(seed);
     MadeJumpOptions options = random_jump_options(seed, 60.0);
     options.rate_hz = std::min(options.rate_hz, 120.0);
     options.noise_m = 0.0005 * options.stature_m / 1.75;
@@ -129,7 +129,7 @@ TEST(FindJumps, TimeShiftMirrorHeadingAndFloorLeaveTheAnswer) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     MadeJumpOptions options = random_jump_options(seed, 60.0);
     options.noise_m = 0.0003;
-    const MadeJump made = made_jump(testing::random_flights(seed), options);
+    const MadeJump made = made_jump(marey::testing::random_flights(seed), options);
     const auto jumps = find_jumps(made.track);
 
     BodyTrack later = made.track;

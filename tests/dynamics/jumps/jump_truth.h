@@ -14,12 +14,12 @@
 
 namespace marey::dynamics {
 
-using testing::Dice;
-using testing::made_jump;
-using testing::MadeFlight;
-using testing::MadeFlightTruth;
-using testing::MadeJump;
-using testing::MadeJumpOptions;
+using marey::testing::Dice;
+using marey::testing::made_jump;
+using marey::testing::MadeFlight;
+using marey::testing::MadeFlightTruth;
+using marey::testing::MadeJump;
+using marey::testing::MadeJumpOptions;
 
 inline MadeJumpOptions random_jump_options(std::uint64_t seed, double min_hz) {
   Dice dice(1000 + seed);
