@@ -41,7 +41,7 @@ const Panel kSpacePanel{70.0, 76.0, 380.0, 356.0, 0.4, 0.82, -420.0, -90.0};
 const Panel kHeightPanel{540.0, 76.0, 310.0, 166.0, 0.0, 0.7, -360.0, 100.0};
 const Panel kPushPanel{540.0, 286.0, 310.0, 146.0, 0.0, 0.7, -0.5, 3.5};
 
-/// Colours of the rules: of an area and of a line.
+/// A rule in words, and the colours of its area and its line.
 struct RuleColour {
   const char* words;
   const char* area;
