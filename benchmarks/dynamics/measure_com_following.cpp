@@ -18,18 +18,12 @@
 
 #include <glm/geometric.hpp>
 
-#include "benchmarks/parts/captured_clips.h"
+#include "benchmarks/dynamics/com_subjects.h"
 #include "benchmarks/parts/result_table.h"
-#include "benchmarks/retarget/scaled_bodies.h"
 #include "core/human/centre_of_mass.h"
 #include "retarget/adapt/adapter.h"
-#include "retarget/base/smooth_cover.h"
-#include "core/base/smooth_step.h"
-#include "retarget/character/make_character.h"
-#include "retarget/com/foot_goals.h"
-#include "retarget/contacts/detect_contacts.h"
+#include "retarget/com/follow_com.h"
 #include "retarget/contacts/measure_contacts.h"
-#include "retarget/motion/retarget_motion.h"
 #include "tests/support/program/thread_time.h"
 
 namespace marey {
@@ -38,53 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 using retarget::FootGoal;
 
-constexpr double kFade_s = 0.08;  // Half of a foot's fade, as edit's hold_feet().
-constexpr double kAdultLeg_m = 0.9;
-constexpr double kPi = 3.14159265358979323846;
-constexpr std::size_t kMaxFrames = 600;
 constexpr int kTimedRuns = 3;
-
-struct Stature {
-  const char* name;
-  double height_m;
-  double legs;
-  double trunk;
-};
-constexpr std::array kStatures{Stature{"0.6 m", 0.6, 0.9, 1.1},
-                               Stature{"1.1 m", 1.1, 0.95, 1.05},
-                               Stature{"1.75 m", 1.75, 1.0, 1.0},
-                               Stature{"1.9 m, long legs", 1.9, 1.15, 0.9},
-                               Stature{"2.5 m", 2.5, 1.0, 1.0}};
-
-/// A motion on one body, its feet and its centre of mass.
-struct Subject {
-  Motion motion;
-  Character character;
-  retarget::BodyMap map;
-  std::vector<glm::dvec3> com;
-  std::array<std::vector<FootGoal>, 2> feet;
-};
-
-/// Displacement of the centre of mass, for an adult's leg.
-struct Course {
-  const char* name;
-  glm::dvec3 (*displaced_m)(double time_s);
-};
-
-// 0, 1 and 0 again in two seconds.
-double swell(double time_s) {
-  return 0.5 - 0.5 * std::cos(kPi * time_s);
-}
-const std::array<Course, 4> kCourses{{
-    {"10 cm deeper", [](double t) { return glm::dvec3(0, -0.1 * swell(t), 0); }},
-    {"5 cm higher", [](double t) { return glm::dvec3(0, 0.05 * swell(t), 0); }},
-    {"5 cm sideways", [](double t) { return glm::dvec3(0.05 * swell(t), 0, 0); }},
-    {"8 cm down and up, 1.2 s",
-     [](double t) {
-       const double wave = std::sin(2.0 * kPi * t / 1.2) * smooth_step(t / 0.6);
-       return glm::dvec3(0, -0.08 * wave, 0);
-     }},
-}};
 
 /// Figures of one result. Distances by forward kinematics of the result.
 struct Figures {
@@ -115,64 +63,6 @@ double peak_jerk(const Motion& motion) {
   }
   return worst;
 }
-
-int half_fade(FrameRate rate) {
-  return std::max(1, static_cast<int>(std::lround(kFade_s * rate.hz)));
-}
-
-std::vector<double> holds(const FootContacts& foot, FrameRate rate, std::size_t frames) {
-  std::vector<double> stands(frames, 0.0);
-  for (const FrameRange& run : foot.stance) {
-    std::fill(stands.begin() + run.first, stands.begin() + run.last + 1, 1.0);
-  }
-  std::vector<double> out = retarget::smooth_cover(stands, half_fade(rate));
-  for (std::size_t t = 0; t < frames; ++t) {
-    out[t] = stands[t] > 0.0 ? 1.0 : std::min(1.0, out[t]);
-  }
-  return out;
-}
-
-Result<Subject> subject_of(const CapturedClip& clip, const Stature& stature) {
-  Motion source{clip.character.skeleton, {clip.rate_hz}, 0, clip.poses};
-  if (source.poses.size() > kMaxFrames) source.poses.resize(kMaxFrames);
-  const auto source_map = retarget::map_body(source.skeleton);
-  if (!source_map) return source_map.error();
-  const double by =
-      stature.height_m / retarget::head_height_m(source.skeleton, *source_map);
-  const Skeleton avatar =
-      scaled(source.skeleton,
-             {stature.name, by * stature.legs, by * stature.trunk, by * stature.trunk});
-  auto made = retarget::retarget_motion(source, avatar);
-  if (!made) return made.error();
-  auto map = retarget::map_body(avatar);
-  if (!map) return map.error();
-  auto character = retarget::make_character(clip.name, avatar, *map);
-  if (!character) return character.error();
-  Subject out{std::move(made->motion), *std::move(character), *std::move(map), {}, {}};
-  for (const Pose& pose : out.motion.poses) {
-    out.com.push_back(centre_of_mass(out.character.masses,
-                                     world_from_joints(out.motion.skeleton, pose)));
-  }
-  const Contacts contacts = retarget::detect_contacts(out.motion, out.map);
-  const std::vector<double> ones(out.com.size(), 1.0);
-  for (std::size_t side = 0; side < 2; ++side) {
-    const auto hold = holds(contacts.feet[side], out.motion.rate, out.com.size());
-    out.feet[side] = retarget::foot_goals(
-        out.motion, out.map, static_cast<int>(side), {{}, hold, ones});
-  }
-  return out;
-}
-
-std::vector<glm::dvec3> displaced_m(const Subject& subject, const Course& course) {
-  std::vector<glm::dvec3> out;
-  const double scale = subject.map.leg_length_m / kAdultLeg_m;
-  for (std::size_t t = 0; t < subject.com.size(); ++t) {
-    out.push_back(scale *
-                  course.displaced_m(static_cast<double>(t) / subject.motion.rate.hz));
-  }
-  return out;
-}
-
 template <class Work>
 double us_per_frame(std::size_t frames, const Work& work) {
   double best = std::numeric_limits<double>::infinity();
@@ -207,20 +97,27 @@ Result<double> adapt_to_plan(const Subject& subject,
   Result<retarget::Adapter> made =
       retarget::Adapter::make(subject.character, supports, options);
   if (!made) return made.error();
+  // A support begins when its foot begins to be held, and ends with the last full hold.
+  std::array<std::vector<char>, 2> on;
+  for (std::size_t side = 0; side < 2; ++side) {
+    on[side].assign(wanted.size(), 0);
+    for (std::size_t t = wanted.size(); t-- > 0;) {
+      const double hold = subject.feet[side][t].hold;
+      const bool next = t + 1 < wanted.size() && on[side][t + 1] != 0;
+      on[side][t] = hold >= 1.0 || (hold > 0.0 && next) ? 1 : 0;
+    }
+  }
   const auto adapt = [&] {
     retarget::Adapter adapter =
         *retarget::Adapter::make(subject.character, supports, options);
     std::array handles{*adapter.constraint("leftFoot"), *adapter.constraint("rightFoot")};
-    std::array<bool, 2> is_on{};
     for (std::size_t t = 0; t < wanted.size(); ++t) {
       const double time_s = static_cast<double>(t) / subject.motion.rate.hz;
       for (std::size_t side = 0; side < 2; ++side) {
         const FootGoal& goal = subject.feet[side][t];
-        const double before = t > 0 ? subject.feet[side][t - 1].hold : goal.hold;
-        const bool on = goal.hold >= 1.0 || (goal.hold > 0.0 && goal.hold >= before);
-        if (on && !is_on[side]) handles[side].start(t > 0 ? time_s : -10.0);
-        if (!on && is_on[side]) handles[side].stop(time_s);
-        is_on[side] = on;
+        const bool was_on = t > 0 && on[side][t - 1] != 0;
+        if (on[side][t] != 0 && !was_on) handles[side].start(t > 0 ? time_s : -10.0);
+        if (on[side][t] == 0 && was_on) handles[side].stop(time_s);
         handles[side].set_target(goal.place.ankle_in_world +
                                  (1.0 - goal.hold) * displaced[t]);
         handles[side].set_orientation(goal.place.foot);
@@ -374,16 +271,16 @@ int fail(const Error& error) {
   return 3;
 }
 
-int run(const fs::path& mocap, const fs::path& json) {
-  const auto clips = read_clips(mocap, ClipSet::kAll);
-  if (!clips) return fail(clips.error());
+int run(const fs::path& data, const fs::path& json) {
+  const auto motions = read_motions(data);
+  if (!motions) return fail(motions.error());
   ResultTable table = empty_table();
-  for (const CapturedClip& clip : *clips) {
-    for (const Stature& stature : kStatures) {
-      const auto subject = subject_of(clip, stature);
+  for (const NamedMotion& named : *motions) {
+    for (const Stature& stature : statures()) {
+      const auto subject = subject_of(named.name, named.motion, stature);
       if (!subject) return fail(subject.error());
-      for (const Course& course : kCourses) {
-        const Status ok = add_row(clip.name, stature, *subject, course, table);
+      for (const Course& course : courses()) {
+        const Status ok = add_row(named.name, stature, *subject, course, table);
         if (!ok) return fail(ok.error());
       }
     }
@@ -398,7 +295,7 @@ int run(const fs::path& mocap, const fs::path& json) {
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::fprintf(stderr, "usage: measure_com_following MOCAP_FOLDER [FIGURES.json]\n");
+    std::fprintf(stderr, "usage: measure_com_following DATA_FOLDER [FIGURES.json]\n");
     return 2;
   }
   return marey::run(argv[1], argc > 2 ? argv[2] : "");

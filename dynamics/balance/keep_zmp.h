@@ -63,7 +63,8 @@ struct KeepZmpResult {
 
 /// Computes the smallest smooth horizontal displacement d(t) of the centre of mass that
 /// puts the zero moment point into the support area, smaller by a margin, in every frame
-/// that is loaded: minimises the sum of d^2 and (smoothness * second difference of d)^2.
+/// that is loaded: minimises the sum of d^2 and (smoothness * second derivative of d)^2,
+/// and its speed at both ends.
 /// A displacement moves the zero moment point by d - (height / (vertical acceleration +
 /// gravity)) * second derivative of d, with the derivative of ground_reactions(), so the
 /// problem is a convex quadratic programme. It is solved for both axes at once by an
@@ -72,8 +73,8 @@ struct KeepZmpResult {
 ///
 /// The displacement is 0 everywhere if all points are inside already. Deterministic.
 /// Linear in frames; quadratic in frames per window of derivatives.
-/// Preconditions: rate above 0; reactions are those of ground_reactions() with
-/// options.zmp; `displaced_xz_m` and `freedom` have a value per frame or are empty.
+/// Preconditions: rate and smoothness above 0; reactions are those of ground_reactions()
+/// with options.zmp; `displaced_xz_m` and `freedom` have a value per frame or are empty.
 [[nodiscard]] KeepZmpResult keep_zmp(const KeepZmpInput& input,
                                      const KeepZmpOptions& options = {});
 

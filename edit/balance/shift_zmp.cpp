@@ -17,7 +17,7 @@
 namespace marey::edit {
 namespace {
 
-constexpr int kRounds = 6;
+constexpr int kRounds = 12;
 // Corrections of the root until the centre of mass is displaced as wanted.
 constexpr int kRootSteps = 3;
 // Margins of the rounds: a later round needs less, since it corrects less. [m]
@@ -105,6 +105,7 @@ ShiftZmpReport shift_zmp(const EditState& state,
       start_in_world = track.com_in_world;
     }
     if (round == kRounds) break;
+    if (round > 0 && report.after.inside_frames == report.after.supported_frames) break;
     options.margin_m = round == 0 ? kMargin_m : 0.8 * kMargin_m;
     const dynamics::KeepZmpResult step = dynamics::keep_zmp({track.com_in_world,
                                                              track.reactions,

@@ -15,7 +15,7 @@
 #include "core/transform.h"
 #include "retarget/body/body_map.h"
 #include "retarget/com/bend_leg.h"
-#include "retarget/com/follow_com.h"
+#include "retarget/com/com_plan.h"
 #include "retarget/com/raise_heel.h"
 
 namespace marey::retarget {
