@@ -5,7 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "dynamics/jumps/plan_jump.h"
+#include "dynamics/jumps/jump_plan.h"
+#include "dynamics/jumps/jump_wish.h"
 #include <glm/vec3.hpp>
 
 #include "core/base/result.h"
