@@ -13,7 +13,7 @@ set(retarget_LAYERS
   base constraints bones body character contacts feet balance com hands motion
   adapt/plan adapt/kernel adapt)
 set(dynamics_LAYERS push flight momentum balance jumps)
-set(edit_LAYERS signal state find filter splice jump ops markers .)
+set(edit_LAYERS signal state balance find filter splice jump ops markers .)
 set(library_LAYERS clips features quality search duplicates segments labels export)
 set(recordings_LAYERS base body edit takes motion gltf markers print session library)
 set(live_LAYERS udp vmc page web)

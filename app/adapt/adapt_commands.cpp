@@ -16,6 +16,7 @@
 #include "app/adapt/adapt_body.h"
 #include "app/adapt/adapt_iterations.h"
 #include "app/adapt/adapt_json.h"
+#include "app/adapt/adapt_zmp.h"
 #include "app/motion/raw_body.h"
 #include "app/motion/retarget_files.h"
 #include "app/shell/findings.h"
@@ -112,6 +113,31 @@ Status choose_balance_groups(const AdaptArguments& args, Character& character) {
   return Done{};
 }
 
+/// Adapts the motion with the balance of the options.
+Status adapt_once(const AdaptBody& body,
+                  std::span<const retarget::SupportTrack> supports,
+                  const retarget::AdaptMotionOptions& options,
+                  Console& console,
+                  AdaptRun& run) {
+  if (options.adapt.balance == retarget::BalanceMode::kZmp) {
+    auto made =
+        adapt_with_zmp(body, run.constraints, supports, options, console.stage("adapt"));
+    if (!made) return made.error();
+    run.adapted = std::move(made->adapted);
+    run.zmp = made->figures;
+    return Done{};
+  }
+  auto adapted = retarget::adapt_motion(body.reference,
+                                        body.character,
+                                        run.constraints,
+                                        supports,
+                                        options,
+                                        console.stage("adapt"));
+  if (!adapted) return adapted.error();
+  run.adapted = *std::move(adapted);
+  return Done{};
+}
+
 /// Adapts the motion. Precondition: `run` has the constraints.
 Status adapt_all(const AdaptArguments& args,
                  const AdaptBody& body,
@@ -122,21 +148,18 @@ Status adapt_all(const AdaptArguments& args,
   options.adapt = args.options;
   options.carried = args.loads;
   const Stopwatch watch;
-  auto adapted = retarget::adapt_motion(body.reference,
-                                        body.character,
-                                        run.constraints,
-                                        supports,
-                                        options,
-                                        console.stage("adapt"));
-  if (!adapted) {
-    Error error = adapted.error();
+  if (const Status ok = adapt_once(body, supports, options, console, run); !ok) {
+    Error error = ok.error();
     if (!args.character.empty()) {
       error.where = args.character.string() + ": " + error.where;
     }
     return error;
   }
   run.adapt_s = watch.seconds();
-  run.adapted = std::move(*adapted);
+  // Single frames have the balance of single postures.
+  if (options.adapt.balance == retarget::BalanceMode::kZmp) {
+    options.adapt.balance = retarget::BalanceMode::kHorizontal;
+  }
   run.departure =
       measure_adapt_departure(body.reference, run.adapted.motion, run.constraints);
   run.posture = measure_adapt_posture(
@@ -274,8 +297,10 @@ void add_solve_options(CLI::App& command, retarget::AdaptOptions& options) {
                           options.balance,
                           {{"off", BalanceMode::kOff},
                            {"horizontal", BalanceMode::kHorizontal},
-                           {"3d", BalanceMode::k3d}},
-                          "Keep the motion's centre of mass; default off");
+                           {"3d", BalanceMode::k3d},
+                           {"zmp", BalanceMode::kZmp}},
+                          "Keep the motion's centre of mass, or (zmp) its zero moment "
+                          "point above the feet; default off");
   command
       .add_option(
           "--root-share",

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/adapt/frame_time.h"
+#include "app/motion/zmp_figures.h"
 #include "core/base/degrees.h"
 #include "core/base/format_text.h"
 
@@ -204,6 +205,7 @@ Json adapt_json(const AdaptArguments& args, const AdaptRun& run) {
     out["balance"] = {{"mean_error_mm", 1e3 * adapted.mean_balance_error_m},
                       {"worst_error_mm", 1e3 * adapted.worst_balance_error_m}};
   }
+  if (run.zmp) out["zmp"] = zmp_json(*run.zmp);
   const retarget::AddedAcceleration& added = adapted.added;
   out["added_acceleration"] = {{"m_per_s2", added.m_per_s2},
                                {"joint", adapted.motion.skeleton[added.joint].name},

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/balance/support_polygon.h"
 #include <nlohmann/json_fwd.hpp>
 
 #include "app/adapt/adapt_arguments.h"
@@ -35,6 +36,7 @@ struct AdaptRun {
   std::vector<std::vector<retarget::SupportSlide>> slides;  ///< Like adapted.supports.
   AdaptDeparture departure;  ///< Relative to the motion on the character's body.
   AdaptPosture posture;
+  std::optional<dynamics::ZmpFigures> zmp;  ///< With `--balance zmp`.
   /// Per constraint: it reached a low iteration limit, and the default limit meets it in
   /// its worst frame.
   std::vector<char> more_iterations_help;

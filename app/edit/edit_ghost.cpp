@@ -12,9 +12,11 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "app/motion/zmp_figures.h"
 #include "core/humanoid.h"
 #include "core/transform.h"
 #include "live/page/page_frame.h"
+#include "retarget/body/place_masses.h"
 
 namespace marey::app {
 namespace {
@@ -129,12 +131,21 @@ OptionalPoses ghost_poses(const edit::EditState& source,
   return out;
 }
 
+/// Returns centre of mass, support area and zero moment point per frame; empty if the
+/// body has no masses.
+std::vector<retarget::BalanceFrame> balance_of(const edit::EditState& state) {
+  const auto masses = retarget::place_masses(state.motion.skeleton, state.map, {});
+  if (!masses) return {};
+  return motion_zmp(state.motion, state.map, state.contacts, *masses).frames;
+}
+
 std::string edit_block(const edit::EditState& source,
                        const edit::EditState& result,
                        const OptionalPoses& ghost,
                        const FrameRange& span) {
   std::string out;
   live::append_motion_block_head(static_cast<std::uint32_t>(ghost.size()), 2, out);
+  const std::vector<retarget::BalanceFrame> balance = balance_of(result);
   std::array<live::PageFigure, 2> figures;
   figures[0].joints = source.motion.skeleton.joints.size();
   figures[1].joints = result.motion.skeleton.joints.size();
@@ -144,6 +155,11 @@ std::string edit_block(const edit::EditState& source,
     figures[1].pose = &result.motion.poses[frame];
     if (frame < result.uncertainty.size()) {
       figures[1].uncertainty = result.uncertainty[frame];
+    }
+    if (frame < balance.size()) {
+      const retarget::BalanceFrame& one = balance[frame];
+      figures[1].balance =
+          live::PageBalance{one.centre_of_mass_in_world, one.support_xz_m, one.zmp_xz_m};
     }
     live::append_frame({.frame = static_cast<std::uint32_t>(frame),
                         .time_s = static_cast<double>(frame) / result.motion.rate.hz,

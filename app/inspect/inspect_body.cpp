@@ -7,8 +7,11 @@
 #include <string>
 #include <utility>
 
+#include "app/inspect/inspect_jumps.h"
+#include "app/motion/jump_figures.h"
 #include "app/motion/neutral.h"
 #include "app/motion/read_body.h"
+#include "app/motion/zmp_figures.h"
 #include "core/base/extension.h"
 #include "core/bone_map.h"
 #include "recordings/base/atomic_file.h"
@@ -136,6 +139,14 @@ Result<Json> inspect_body(const std::filesystem::path& file,
         {"rate_hz", motion.rate.hz},
         {"duration_s", static_cast<double>(motion.poses.size()) / motion.rate.hz},
         {"ignored_translation_m", kept.ignored_translation_m}};
+  }
+  if (body && kept.has_motion) {
+    if (const auto jumps = find_motion_jumps(body->raw.motion)) {
+      out["jumps"] = jumps_json(*jumps);
+    }
+    if (const auto zmp = find_motion_zmp(body->raw.motion)) {
+      out["zmp"] = zmp_json(zmp->figures);
+    }
   }
   out["body"] = body ? describe(*body) : Json{{"declined", body.error().message()}};
   if (options.write_map) {

@@ -24,12 +24,13 @@ struct InspectBodyOptions {
   }
 };
 
-/// Returns the content of a body's file: joints, motion, and under "body" the joint of
-/// each bone with reason and confidence, unit, up axis, front, stature and warnings, or
-/// "declined" with the reason. Writes the map and the picture if the options request
-/// them.
-/// Errors: the file cannot be read; the given map or neutral pose does not fit the body;
-/// a map or a picture is requested and the body has none; the disk is full.
+/// Returns the content of a body's file: joints, motion, its jumps, its zero moment
+/// points
+/// ("zmp", zmp_json()), and under "body" the joint of each bone with reason and
+/// confidence, unit, up axis, front, stature and warnings, or "declined" with the reason.
+/// Writes the map and the picture if the options request them. Errors: the file cannot be
+/// read; the given map or neutral pose does not fit the body; a map or a picture is
+/// requested and the body has none; the disk is full.
 [[nodiscard]] Result<nlohmann::ordered_json> inspect_body(
     const std::filesystem::path& file,
     const InspectBodyOptions& options,

@@ -14,6 +14,7 @@
 
 #include "app/inspect/inspect_body.h"
 #include "app/inspect/inspect_inputs.h"
+#include "app/inspect/inspect_jumps.h"
 #include "app/inspect/inspect_markers.h"
 #include "app/inspect/inspect_results.h"
 #include "app/motion/neutral.h"
@@ -125,7 +126,7 @@ Exit run_inspect(const std::filesystem::path& file,
   if (json) {
     std::printf("%s\n", text(*found, 2).c_str());
   } else {
-    print(bones_as_lines(*found), 0);
+    print(jumps_as_lines(bones_as_lines(*found)), 0);
   }
   return Exit::kOk;
 }

@@ -9,6 +9,7 @@
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/motion/zmp_figures.h"
 #include "app/pages/report_json.h"
 #include "core/base/assert.h"
 #include "retarget/body/place_masses.h"
@@ -167,6 +168,10 @@ Status measure_avatar(const RetargetRun& run, AvatarResult& avatar) {
   auto balance = balance_of(motion, avatar.map, avatar.retargeted.report.contacts);
   if (!balance) return balance.error();
   avatar.balance = *std::move(balance);
+  const auto masses = retarget::place_masses(motion.skeleton, avatar.map, {});
+  if (!masses) return masses.error();
+  avatar.zmp =
+      motion_zmp(motion, avatar.map, avatar.retargeted.report.contacts, *masses).figures;
   return Done{};
 }
 
@@ -202,6 +207,7 @@ Json avatar_json(const RetargetRun& run, const AvatarResult& avatar) {
       {"jerk_over_source", rounded(avatar.jerk_ratio, 4)},
       {"drifts", contact_list(c)}};
   out["balance"] = balance_json(run, avatar);
+  out["zmp"] = zmp_json(avatar.zmp);
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/balance/support_polygon.h"
 #include <nlohmann/json_fwd.hpp>
 
 #include "app/motion/assess_avatar.h"
@@ -37,6 +38,7 @@ struct AvatarResult {
   /// this avatar's height.
   double jerk_ratio = 0.0;
   retarget::BalanceTrack balance;  ///< Balance of the written motion.
+  dynamics::ZmpFigures zmp;        ///< Zero moment points of the written motion.
 };
 
 /// Result of `marey retarget`.

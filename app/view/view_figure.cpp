@@ -7,6 +7,7 @@
 
 #include "app/motion/error_of_file.h"
 #include "app/motion/foot_contacts.h"
+#include "app/motion/zmp_figures.h"
 #include "core/base/extension.h"
 #include "retarget/body/body_map.h"
 #include "retarget/body/place_masses.h"
@@ -115,7 +116,12 @@ std::vector<retarget::BalanceFrame> balance_of(const Motion& motion) {
   const auto masses = retarget::place_masses(motion.skeleton, *map, {});
   if (!masses) return {};
   const Contacts contacts = retarget::detect_contacts(motion, *map);
-  return retarget::balance_frames(motion, *map, *masses, contacts);
+  auto frames = retarget::balance_frames(motion, *map, *masses, contacts);
+  const MotionZmp zmp = motion_zmp(motion, *map, contacts, *masses);
+  for (std::size_t t = 0; t < frames.size(); ++t) {
+    frames[t].zmp_xz_m = zmp.frames[t].zmp_xz_m;
+  }
+  return frames;
 }
 
 std::vector<live::PageContact> contact_spans(const Motion& motion, int first_frame) {

@@ -62,8 +62,8 @@ live::PageFigure figure_at(const ViewedFigure& figure, std::size_t frame) {
   if (frame < figure.uncertainty.size()) out.uncertainty = figure.uncertainty[frame];
   if (frame < figure.balance.size()) {
     const retarget::BalanceFrame& balance = figure.balance[frame];
-    out.balance =
-        live::PageBalance{balance.centre_of_mass_in_world, balance.support_xz_m};
+    out.balance = live::PageBalance{
+        balance.centre_of_mass_in_world, balance.support_xz_m, balance.zmp_xz_m};
   }
   return out;
 }

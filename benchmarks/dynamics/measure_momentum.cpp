@@ -48,7 +48,7 @@ struct FlightFigures {
   double turn_deg = 0.0, landing_deg = 0.0;
   double com_off_m = 0.0;
   double us_per_frame = 0.0;
-  double fit_rms_m = 0.0;    // From the best parabola, as sd_inner.
+  double fit_rms_m = 0.0;    // In height from the best parabola, as sd_inner.
   double moved_rms_m = 0.0;  // By make_ballistic().
   bool applied = false;
 };
@@ -58,7 +58,7 @@ double judged_sd(const JumpClip& clip, std::span<const Pose> poses, Differences 
       clip.motion.skeleton, clip.masses, clip.hz(), poses, kind));
 }
 
-// Rms distance from the best parabola of 9.81 m/s^2. Two unknowns an axis.
+// Rms distance in height from the best parabola of 9.81 m/s^2.
 double free_fall_rms_m(const JumpClip& clip, std::span<const Pose> poses) {
   std::vector<glm::dvec3> places;
   double mean_t = 0.0;
@@ -83,7 +83,7 @@ double free_fall_rms_m(const JumpClip& clip, std::span<const Pose> poses) {
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const double t = static_cast<double>(k) / clip.hz() - mean_t;
     const glm::dvec3 off = places[k] - mean - t * slope;
-    sum += glm::dot(off, off);
+    sum += off.y * off.y;
   }
   return std::sqrt(sum / n);
 }
@@ -176,7 +176,7 @@ void print_header() {
   std::printf(
       "flight                       s     fall stance  inner  before   after  5-pt "
       "before after "
-      " turn landing  COM off   us  fit rms moved rms\n"
+      " turn landing  COM off   us   height     moved\n"
       "                                  m/s2 ------------------- sd, kg m2/s "
       "------------- "
       "   deg     deg        m frame      mm        mm\n");
@@ -238,7 +238,7 @@ void summarize(const char* title, const std::vector<FlightFigures>& flights) {
   print("landing turn, deg", &FlightFigures::landing_deg, 1.0);
   print("COM off, m", &FlightFigures::com_off_m, 1.0);
   print("us per frame", &FlightFigures::us_per_frame, 1.0);
-  print("best parabola, rms mm", &FlightFigures::fit_rms_m, 1e3);
+  print("height off best parabola, rms mm", &FlightFigures::fit_rms_m, 1e3);
   print("make_ballistic moves, rms mm", &FlightFigures::moved_rms_m, 1e3);
 }
 

@@ -27,7 +27,7 @@ namespace {
 // Part of the walk in which all standing feet are on plates.
 constexpr double kFrom_s = 0.55;
 constexpr double kTo_s = 1.85;
-// Frames in which plates and motion disagree by more carry weight beside the plates.
+// In frames in which plates and motion disagree by more, a foot is not on a plate.
 constexpr double kSameForce_g = 0.1;
 
 // Sum of the plates at one instant.

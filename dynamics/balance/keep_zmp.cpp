@@ -6,7 +6,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <functional>
+#include <numeric>
 
 #include "dynamics/balance/banded_cholesky.h"
 #include "dynamics/balance/local_cubic.h"
@@ -22,9 +23,12 @@ namespace {
 // that is possible; the others are tried in turn where it is not, because large
 // displacements would not help.
 constexpr std::array<double, 3> kPriceFactors{1.0, 0.3, 0.1};
+// Cost of a displacement that moves at an end of the motion, over that of stopping it
+// there: a motion does not begin or end in a fall.
+constexpr double kEndFactor = 100.0;
 constexpr double kPinned = 1e10;
 constexpr double kMinFreedom = 1e-3;
-// Size of the first step of the interior-point method, and of its last. [m]
+// First and last state of the interior-point method.
 constexpr double kFirstSlack_m = 0.01;
 constexpr double kFirstGap = 1e-2;
 constexpr double kLastGap = 1e-10;
@@ -46,6 +50,8 @@ class ZmpProgramme {
         step_(2 * frames_, 0.0),
         gradient_(2 * frames_, 0.0),
         matrix_(2 * frames_, std::max<std::size_t>(4 * derive_.half() + 1, 5)) {
+    const double stop = options.smoothness_s2 * input.rate.hz * input.rate.hz;
+    end_ = kEndFactor * stop * stop / (input.rate.hz * std::sqrt(options.smoothness_s2));
     for (std::size_t t = 0; t < frames_; ++t) {
       const GroundReaction& reaction = input.reactions[t];
       const double height_m = input.com_in_world[t].y - options.zmp.floor_height_m;
@@ -86,20 +92,21 @@ class ZmpProgramme {
         edge.correct_slack = edge.d_slack * edge.d_release;
       }
       eliminate(std::max(predicted, 1e-3) * gap, true);
-      if (!has_step()) return i;  // Rounding prevents a better solution.
+      // Rounding prevents a better solution.
+      if (!std::isfinite(std::accumulate(step_.begin(), step_.end(), 0.0))) return i;
       advance(kToBoundary * longest_step());
     }
     return max_iterations;
   }
 
   [[nodiscard]] glm::dvec2 shift(std::size_t t) const {
+    if (near_[t] >= kPinned) return glm::dvec2(0.0);
     return {x_[2 * t], x_[2 * t + 1]};
   }
   // Returns the predicted zero moment point. Precondition: the frame is loaded.
   [[nodiscard]] glm::dvec2 zmp(std::size_t t) const {
     return *input_.reactions[t].zmp_xz_m + moved(x_, {t, true, lever_s2_[t]});
   }
-  // Returns true if the zero moment point of the frame has a place where it should be.
   [[nodiscard]] bool is_limited(std::size_t t) const { return limited_[t] != 0; }
   [[nodiscard]] int without_area() const { return without_area_; }
 
@@ -134,7 +141,6 @@ class ZmpProgramme {
     return glm::dvec2(x[2 * t], x[2 * t + 1]) - row.lever_s2 * bend;
   }
 
-  // Adds the transpose of moved(), applied to `force`.
   void add_transposed(const glm::dvec2& force,
                       const Row& row,
                       std::span<double> out) const {
@@ -165,11 +171,17 @@ class ZmpProgramme {
     return x_[i] + (i % 2 == 0 ? before.x : before.y);
   }
 
+  // Returns the pairs of displacements at both ends of the motion.
+  [[nodiscard]] std::vector<std::array<std::size_t, 2>> ends() const {
+    const std::size_t n = x_.size();
+    if (frames_ < 3) return {};
+    return {{0, 2}, {1, 3}, {n - 2, n - 4}, {n - 1, n - 3}};
+  }
+
   // Computes gradient and residuals; returns the mean complementarity gap.
   double evaluate() {
     residual_ = 0.0;
     for (std::size_t i = 0; i < x_.size(); ++i) {
-      // Frames that may not move stay where they are.
       gradient_[i] = near_[i / 2] * (near_[i / 2] < kPinned ? displaced(i) : x_[i]);
     }
     for (std::size_t i = 2; i + 2 < x_.size(); ++i) {
@@ -178,6 +190,11 @@ class ZmpProgramme {
       gradient_[i - 2] += bend;
       gradient_[i] -= 2.0 * bend;
       gradient_[i + 2] += bend;
+    }
+    for (const auto& [i, j] : ends()) {
+      const double way = end_ * (displaced(i) - displaced(j));
+      gradient_[i] += way;
+      gradient_[j] -= way;
     }
     double gap = 0.0;
     for_each_row([&](const Row& row, std::span<ZmpEdge> edges) {
@@ -204,6 +221,11 @@ class ZmpProgramme {
           matrix_.add(i + 2 * a - 2, i + 2 * b - 2, smooth_[i / 2] * d[a] * d[b]);
         }
       }
+    }
+    for (const auto& [i, j] : ends()) {
+      matrix_.add(i, i, end_);
+      matrix_.add(j, j, end_);
+      matrix_.add(std::max(i, j), std::min(i, j), -end_);
     }
     for_each_row([&](const Row& row, std::span<ZmpEdge> edges) {
       double xx = 0.0, xz = 0.0, zz = 0.0;
@@ -241,7 +263,7 @@ class ZmpProgramme {
   // Computes the Newton step to a gap. With `corrects`, the predictor's products
   // are taken into account.
   void eliminate(double target_gap, bool corrects) {
-    for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = -gradient_[i];
+    std::transform(gradient_.begin(), gradient_.end(), step_.begin(), std::negate<>());
     for_each_row([&](const Row& row, std::span<ZmpEdge> edges) {
       glm::dvec2 force(0.0);
       for (ZmpEdge& edge : edges) {
@@ -268,7 +290,6 @@ class ZmpProgramme {
     });
   }
 
-  // Returns the residuals of both complementarities.
   static std::array<double, 2> gaps(const ZmpEdge& edge,
                                     double target_gap,
                                     bool corrects) {
@@ -290,11 +311,6 @@ class ZmpProgramme {
       limit(edge.release, edge.d_release);
     }
     return out;
-  }
-
-  [[nodiscard]] bool has_step() const {
-    return std::all_of(
-        step_.begin(), step_.end(), [](double way) { return std::isfinite(way); });
   }
 
   void advance(double share) {
@@ -327,6 +343,7 @@ class ZmpProgramme {
   LocalCubic derive_;
   std::vector<double> lever_s2_;  // Height over vertical force.
   std::vector<double> near_;      // Weights of displacements.
+  double end_ = 0.0;              // Weight of the speed at both ends.
   std::vector<char> limited_;
   std::vector<double> smooth_;  // Weights of second differences.
   std::vector<ZmpEdge> edges_;  // In the order of frames.
@@ -355,10 +372,10 @@ KeepZmpResult solved(const KeepZmpInput& input,
         (input.displaced_xz_m.empty() ? glm::dvec2(0.0) : input.displaced_xz_m[t]);
     out.max_shift_m = std::max(out.max_shift_m, glm::length(total));
     if (!programme.is_limited(t)) continue;
-    const auto outside_m = distance_outside(input.supports[t], programme.zmp(t));
-    if (!outside_m || *outside_m <= kMet_m) continue;
+    const double outside_m = *distance_outside(input.supports[t], programme.zmp(t));
+    if (outside_m <= kMet_m) continue;
     out.unmet_frames.push_back(static_cast<int>(t));
-    out.worst_unmet_m = std::max(out.worst_unmet_m, *outside_m);
+    out.worst_unmet_m = std::max(out.worst_unmet_m, outside_m);
   }
   return out;
 }
@@ -367,7 +384,7 @@ KeepZmpResult solved(const KeepZmpInput& input,
 
 KeepZmpResult keep_zmp(const KeepZmpInput& input, const KeepZmpOptions& options) {
   const std::size_t frames = input.com_in_world.size();
-  MAREY_ASSERT(input.rate.hz > 0.0);
+  MAREY_ASSERT(input.rate.hz > 0.0 && options.smoothness_s2 > 0.0);
   MAREY_ASSERT(input.reactions.size() == frames && input.supports.size() == frames);
   MAREY_ASSERT(input.displaced_xz_m.empty() || input.displaced_xz_m.size() == frames);
   MAREY_ASSERT(input.freedom.empty() || input.freedom.size() == frames);

@@ -15,7 +15,7 @@
 namespace marey::dynamics {
 
 struct KeepZmpOptions {
-  ZmpOptions zmp{};  ///< Those with which the reactions were computed.
+  ZmpOptions zmp{};  ///< Options of ground_reactions().
   /// Distance that zero moment points keep from the edges of the support area, at most a
   /// quarter of the area's width.
   double margin_m = 0.010;
@@ -34,17 +34,17 @@ struct KeepZmpOptions {
   int max_iterations = 80;
 };
 
-/// One motion. All spans have the same length, unless said otherwise.
+/// One motion. Spans have one value per frame; the last two may be empty.
 struct KeepZmpInput {
   std::span<const glm::dvec3> com_in_world;
   std::span<const GroundReaction> reactions;
   std::span<const SupportPolygon> supports;
   FrameRate rate;
-  /// Displacement that the centre of mass already has from the reference: the sum is what
-  /// is kept small. Empty: none.
+  /// Existing displacement of the centre of mass from the reference. The sum with the new
+  /// one is kept small. Empty: none.
   std::span<const glm::dvec2> displaced_xz_m{};
-  /// How far each frame may be displaced, 0 to 1: at 0 it is not displaced, and its zero
-  /// moment point is not considered. Empty: 1 everywhere.
+  /// Effect on each frame, 0 to 1: at 0 a frame is not displaced, and its zero moment
+  /// point is not considered. Empty: 1 everywhere.
   std::span<const double> freedom{};
 };
 
@@ -63,7 +63,8 @@ struct KeepZmpResult {
 
 /// Computes the smallest smooth horizontal displacement d(t) of the centre of mass that
 /// puts the zero moment point into the support area, smaller by a margin, in every frame
-/// that is loaded: minimises the sum of d^2 and (smoothness * second difference of d)^2.
+/// that is loaded: minimises the sum of d^2 and (smoothness * second derivative of d)^2,
+/// and its speed at both ends.
 /// A displacement moves the zero moment point by d - (height / (vertical acceleration +
 /// gravity)) * second derivative of d, with the derivative of ground_reactions(), so the
 /// problem is a convex quadratic programme. It is solved for both axes at once by an
@@ -72,8 +73,8 @@ struct KeepZmpResult {
 ///
 /// The displacement is 0 everywhere if all points are inside already. Deterministic.
 /// Linear in frames; quadratic in frames per window of derivatives.
-/// Preconditions: rate above 0; reactions are those of ground_reactions() with
-/// options.zmp; `displaced_xz_m` and `freedom` have a value per frame or are empty.
+/// Preconditions: rate and smoothness above 0; reactions are those of ground_reactions()
+/// with options.zmp; `displaced_xz_m` and `freedom` have a value per frame or are empty.
 [[nodiscard]] KeepZmpResult keep_zmp(const KeepZmpInput& input,
                                      const KeepZmpOptions& options = {});
 

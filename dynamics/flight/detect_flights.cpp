@@ -12,15 +12,17 @@
 namespace marey::dynamics {
 namespace {
 
-// Shares of free fall: of the frames of a candidate, of their median, at its ends, and
-// in a gap between two runs of one flight.
+// Limits of the acceleration as shares of free fall: every frame of a candidate, their
+// median, its ends, and a gap between two runs of one flight.
 constexpr double kFallingShare = 0.6;
 constexpr double kMedianShare = 0.8;
 constexpr double kEndShare = 0.75;
 constexpr double kGapShare = 0.25;
 constexpr double kMaxGap_s = 0.04;
 // Soles of a flying body are this far above their floors, for a foot of kAdultFoot_m.
-constexpr double kMinClearance_m = 0.012;
+constexpr double kMinClearance_m = 0.020;
+// The same where no foot confirms either end.
+constexpr double kClearOfFloor_m = 0.04;
 
 /// Frames of a candidate: [first, end).
 struct FallingRun {
@@ -152,11 +154,12 @@ std::vector<FreeFlight> detect_flights(const BodyTrack& track,
     const auto to = a.begin() + static_cast<std::ptrdiff_t>(run.end);
     if (median({from, to}) > -kMedianShare * options.fall_m_s2) continue;
     FreeFlight flight = by_com(a, run, options.fall_m_s2, hz);
-    if (has_soles && flight.takeoff && flight.landing &&
-        clearance_m(track, run) < kMinClearance_m * scale) {
-      continue;
-    }
     refine_edges(track, scale, flight);
+    if (has_soles && flight.takeoff && flight.landing) {
+      const bool is_confirmed = flight.takeoff->by_feet || flight.landing->by_feet;
+      const double least_m = is_confirmed ? kMinClearance_m : kClearOfFloor_m;
+      if (clearance_m(track, run) < least_m * scale) continue;
+    }
     if (flight.last_s - flight.first_s < options.min_flight_s) continue;
     if (!flights.empty() && flight.first_s < flights.back().last_s) continue;
     flights.push_back(flight);

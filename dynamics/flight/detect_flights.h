@@ -38,11 +38,12 @@ struct DetectFlightsOptions {
 /// Feet and centre of mass agree within this.
 inline constexpr double kEdgeTolerance_s = 0.04;
 
-/// Detects all flights, also those that the clip cuts: runs of frames in which the centre
-/// of mass falls with more than 0.6 of free fall, with a median above 0.8 of it. Their
-/// ends are the feet's where these agree within kEdgeTolerance_s. A run in which the
-/// soles stay on the floor is left out. Sorted by time; they do not overlap. Linear in
-/// frames. Preconditions: those of find_jumps(); `slopes` are the track's.
+/// Detects all flights, also cut ones: runs of frames with a fall of the centre of mass
+/// of more than 0.6 of free fall, and a median above 0.8 of it. Their ends are the feet's
+/// where these agree within kEdgeTolerance_s. A run in which
+/// the soles do not rise from the floor by 20 mm, or 40 mm if no foot confirms an end, is
+/// left out. Sorted by time; they do not overlap. Linear in frames. Preconditions:
+/// those of find_jumps(); `slopes` are the track's.
 [[nodiscard]] std::vector<FreeFlight> detect_flights(const BodyTrack& track,
                                                      const ComSlopes& slopes,
                                                      const DetectFlightsOptions& options);

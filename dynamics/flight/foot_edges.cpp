@@ -13,7 +13,7 @@ namespace marey::dynamics {
 namespace {
 
 constexpr double kLeaving_m = 0.025;   // Rise of the tip at take-off.
-constexpr double kLeavingShare = 0.6;  // Of the tip's maximum speed afterwards.
+constexpr double kLeavingShare = 0.6;  // Share of the tip's maximum speed afterwards.
 constexpr double kLeavingPeak_s = 0.04;
 constexpr double kSpeedHalfSpan_s = 0.01;
 constexpr double kHeelMeeting_m = 0.010;  // Above the lowest height, at landing.

@@ -37,7 +37,7 @@ struct FootEdge {
 
 /// Finds the instant at which the first foot meets the floor, near an estimate: the back
 /// of its heel comes within 10 mm, or its tip within 15 mm, of its lowest height of the
-/// 0.2 s after, wherever that is: a step has its own floor. The back of a heel is behind
+/// 0.2 s after. A step has its own floor. The back of a heel is behind
 /// and above the sole's rear end, over which a foot rolls. The tip of a foot whose toes
 /// are not captured sinks a few millimetres into the floor.
 [[nodiscard]] std::optional<FootEdge> foot_landing(const BodyTrack& track,
@@ -49,9 +49,9 @@ struct FootEdge {
 /// soles.
 [[nodiscard]] double lowest_sole_m(const BodyTrack& track, std::size_t frame);
 
-/// Middle of the soles of these feet (if none: of both) at the frame of a time interval
-/// at which they are flattest, at the height of their lowest point. Precondition: the
-/// track has soles; from_s <= to_s.
+/// Returns the middle of the soles of these feet, or of both if none bears, at the height
+/// of their lowest point. The frame is the one in which they are flattest in the
+/// interval. Precondition: the track has soles; from_s <= to_s.
 [[nodiscard]] glm::dvec3 standing_place(const BodyTrack& track,
                                         const std::array<bool, 2>& bears,
                                         double from_s,

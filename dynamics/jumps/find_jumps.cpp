@@ -45,7 +45,7 @@ struct Search {
   const BodyTrack& track;
   const FindJumpsOptions& options;
   double fall_m_s2 = 0.0;  // Expected, positive.
-  double scale = 1.0;      // Of the feet.
+  double scale = 1.0;      // Scale of the feet.
   Slopes slopes;
 
   [[nodiscard]] double hz() const { return track.rate.hz; }
@@ -119,20 +119,27 @@ int lowest_frame(const Search& search, double from_s, double to_s) {
   return at;
 }
 
-// Last frame before `end` of a time in which the body stands.
+// Last frame before `end` of a time in which the body stands: slow in every frame, and
+// without acceleration in the mean, since single accelerations are noisy.
 std::optional<int> end_of_standing(const Search& search, int end) {
-  const int needed =
-      std::max(1, static_cast<int>(std::lround(kStanding_s * search.hz())));
+  const int count =
+      std::max(2, static_cast<int>(std::lround(kStanding_s * search.hz())) + 1);
   const double relative = search.fall_m_s2 / kStandardGravity_m_s2;
-  const auto stands = [&](int frame) {
-    const auto i = static_cast<std::size_t>(frame);
-    return std::abs(search.slopes.up_m_s[i]) < kStanding_m_s * relative &&
-           std::abs(search.slopes.up_m_s2[i]) < kStanding_g * search.fall_m_s2;
-  };
-  int run = 0;
+  int slow = 0;
+  double acceleration_sum = 0.0;
   for (int frame = end - 1; frame >= 0; --frame) {
-    run = stands(frame) ? run + 1 : 0;
-    if (run > needed) return frame + needed;
+    const auto i = static_cast<std::size_t>(frame);
+    const bool is_slow = std::abs(search.slopes.up_m_s[i]) < kStanding_m_s * relative;
+    slow = is_slow ? slow + 1 : 0;
+    acceleration_sum += search.slopes.up_m_s2[i];
+    const int after = frame + count;
+    if (after < end) {
+      acceleration_sum -= search.slopes.up_m_s2[static_cast<std::size_t>(after)];
+    }
+    if (slow >= count &&
+        std::abs(acceleration_sum) < kStanding_g * search.fall_m_s2 * count) {
+      return after - 1;
+    }
   }
   return std::nullopt;
 }
@@ -201,7 +208,8 @@ void find_rest(const Search& search, const Jump* next, Jump& jump) {
   if (!jump.touchdown) return;
   const int needed = std::max(1, static_cast<int>(std::lround(kRest_s * search.hz())));
   const double relative = search.fall_m_s2 / kStandardGravity_m_s2;
-  const double end_s = next != nullptr ? next->takeoff.time_s : search.last_frame() / search.hz();
+  const double end_s =
+      next != nullptr ? next->takeoff.time_s : search.last_frame() / search.hz();
   const int last = static_cast<int>(std::floor(end_s * search.hz()));
   int run = 0;
   for (int frame = static_cast<int>(std::ceil(jump.touchdown->time_s * search.hz()));

@@ -18,7 +18,7 @@ struct FindJumpsOptions {
   /// scaled to another body falls at the scaled rate. nullopt: gravity_m_s2.
   std::optional<double> expected_fall_m_s2{};
   double min_flight_s = 0.05;  ///< Shorter flights are left out.
-  /// Start of the push, set by the user: of the first jump that takes off after it.
+  /// Start of the push of the first jump that takes off after it, set by the user.
   std::optional<double> start_s{};
 };
 

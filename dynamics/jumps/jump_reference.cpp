@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/smooth_step.h"
 #include "core/signal/choose_smoothing.h"
 #include "core/signal/spline_curve.h"
 
@@ -20,22 +21,17 @@ namespace {
 /// Samples of the force per frame.
 constexpr double kForcesPerFrame = 2.0;
 constexpr double kNoForceLimit_m_s2 = 1e6;
-/// Largest cut-off of the force. Errors of a centre of mass are correlated from frame to
-/// frame, so cross-validation alone smooths too little. The residual keeps the rest.
-constexpr double kLargestCutoff_hz = 10.0;
-/// Time in which the force of a support rises from a flight's 0, and falls to it.
-constexpr double kFlightTaper_s = 0.04;
+/// Largest cut-off of the force, times the duration of the push: 10 Hz for 0.7 s. Errors
+/// of a centre of mass are correlated from frame to frame, so cross-validation alone
+/// smooths too little. The residual keeps the rest.
+constexpr double kCutoffPerDuration = 7.0;
+/// Share of a support in which its force rises from a flight's 0, and falls to it.
+constexpr double kFlightTaper = 0.06;
 /// A landing that the clip cuts counts if it lasts this long.
 constexpr double kLeastLanding_s = 0.15;
 
-/// Rises from 0 to 1 with zero first and second derivatives at both ends.
-double smooth_rise(double x) {
-  x = std::clamp(x, 0.0, 1.0);
-  return x * x * x * (10.0 + x * (6.0 * x - 15.0));
-}
-
 /// Accelerations of the centre of mass as functions of time.
-std::vector<SplineCurve> acceleration_curves(const BodyTrack& track) {
+std::vector<SplineCurve> acceleration_curves(const BodyTrack& track, double cutoff_hz) {
   const std::size_t count = track.com_in_world.size();
   std::array<std::vector<double>, 3> channels;
   SmoothingChannels smoothing;
@@ -53,8 +49,8 @@ std::vector<SplineCurve> acceleration_curves(const BodyTrack& track) {
   if (!used.empty()) {
     const ChosenPenalties chosen =
         choose_penalties(smoothing, std::vector<std::vector<std::size_t>>{used});
-    smoothing.splines[0].set_penalty(std::max(
-        chosen.groups[0], penalty_of_half_power(kLargestCutoff_hz, track.rate.hz, {3})));
+    smoothing.splines[0].set_penalty(
+        std::max(chosen.groups[0], penalty_of_half_power(cutoff_hz, track.rate.hz, {3})));
   } else {
     smoothing.splines[0].set_penalty(1.0);
   }
@@ -94,9 +90,9 @@ SupportReference support_reference(const std::vector<SplineCurve>& acceleration,
       if (axis == 1) {
         value = std::max(0.0, value + gravity_m_s2);
       }
-      if (span.from_flight) value *= smooth_rise(duration_s * share / kFlightTaper_s);
+      if (span.from_flight) value *= smooth_step(share / kFlightTaper);
       if (span.to_flight) {
-        value *= smooth_rise(duration_s * (1.0 - share) / kFlightTaper_s);
+        value *= smooth_step((1.0 - share) / kFlightTaper);
       }
       if (axis == 1) {
         out.peak_g = std::max(out.peak_g, value / gravity_m_s2);
@@ -138,7 +134,8 @@ std::optional<JumpReference> JumpReference::make(const BodyTrack& track,
     for (std::size_t i = 0; i < count; ++i) values[i] = track.com_in_world[i][axis];
     out.path_.emplace_back(times, values);
   }
-  const std::vector<SplineCurve> curves = acceleration_curves(track);
+  const std::vector<SplineCurve> curves = acceleration_curves(
+      track, kCutoffPerDuration / (jump.takeoff.time_s - jump.start.time_s));
   for (std::size_t i = 0; i < count; ++i) {
     const double at_s = std::min(times[i], curves[1].end_s());
     out.push_g_.push_back(curves[1].at(at_s, 2) / jump.gravity_m_s2 + 1.0);

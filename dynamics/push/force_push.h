@@ -22,6 +22,8 @@ struct ForceLimits {
   std::optional<double> max_force_m_s2{};
   /// Lowest height that the body can reach. nullopt: no limit. [m]
   std::optional<double> deepest_m{};
+  /// Highest height that the body can reach before the end. nullopt: no limit. [m]
+  std::optional<double> highest_m{};
   /// The body falls before its lowest point and rises after it. Captured jumps often do
   /// not. Applied at kForceInstants instants; the lowest point is at the instant at which
   /// the push without this rule is lowest.

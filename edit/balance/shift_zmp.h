@@ -14,33 +14,20 @@
 
 namespace marey::edit {
 
-/// Zero moment points and support areas of a motion.
-struct ZmpTrack {
-  std::vector<dynamics::GroundReaction> reactions;  ///< One per frame.
-  std::vector<dynamics::SupportPolygon> supports;   ///< One per frame.
-};
-/// Computes both. The support areas are those of retarget::balance_frames() with contacts
-/// from strike to toe-off (retarget::move_to_edges()); the floor is at the height of the
-/// soles of standing feet. Linear in frames. Preconditions: those of
-/// dynamics::centroidal_states(); the motion has the state's skeleton and frames.
-[[nodiscard]] ZmpTrack zmp_track(const EditState& state,
-                                 std::span<const PointMass> masses,
-                                 const Motion& motion);
-
 struct ShiftZmpReport {
-  dynamics::ZmpFigures before{};
-  dynamics::ZmpFigures after{};
-  double max_shift_m = 0.0;  ///< Largest horizontal displacement of the root.
-  double lowered_m = 0.0;    ///< Largest distance by which the root was lowered.
-  double missed_m = 0.0;     ///< Largest distance of a standing foot from its place.
+  dynamics::ZmpFigures before{};  ///< Frames with a weight above 0.
+  dynamics::ZmpFigures after{};   ///< The same frames.
+  double max_shift_m = 0.0;       ///< Largest horizontal displacement of the root.
+  double lowered_m = 0.0;         ///< Largest distance by which the root was lowered.
+  double missed_m = 0.0;          ///< Largest distance of a standing foot from its place.
   int missed_frame = 0;
 };
 
 /// Moves the root horizontally so that the zero moment point is inside the support area
 /// in every loaded frame (dynamics/balance/keep_zmp.h). Standing feet keep their places,
 /// and legs follow (hold_feet()); a moved leg changes centre of mass and angular momentum
-/// again, so the displacement is computed up to six times from the motion as it is then.
-/// Frames with weight 0 keep their pose to the bit. Linear in frames.
+/// again, so the displacement is computed up to twelve times from the motion as it is
+/// then. Frames with weight 0 keep their pose to the bit. Linear in frames.
 /// Preconditions: `motion` is the state's motion; those of zmp_track().
 ShiftZmpReport shift_zmp(const EditState& state,
                          std::span<const PointMass> masses,

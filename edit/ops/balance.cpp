@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "edit/balance/shift_zmp.h"
 #include "edit/state/check_op_keys.h"
 #include "edit/state/hold_feet.h"
 #include "edit/state/op_weights.h"
@@ -95,9 +96,54 @@ int outside_frames(const Motion& motion,
   return figures.supported_frames - figures.over_frames;
 }
 
+/// Returns the finding of a foot that leaves its place.
+Finding left_place(const EditState& state, double missed_m, int frame) {
+  return fair_finding("reach",
+                      "legs",
+                      "a foot leaves its place by " +
+                          format_text("%.0f mm", kToMm * missed_m) + " at " +
+                          format_text("%.2f s", frame / state.motion.rate.hz),
+                      "correct the posture there first")
+      .measured(kToMm * missed_m, std::nullopt, "mm");
+}
+
+EditState balanced_by_zmp(const OpContext& context,
+                          const EditState& state,
+                          const std::vector<PointMass>& masses,
+                          const OpWeights& weights,
+                          OpReport& report) {
+  EditState out = state;
+  const ShiftZmpReport made = shift_zmp(state, masses, weights, out.motion);
+  const auto outside = [](const dynamics::ZmpFigures& figures) {
+    return figures.supported_frames - figures.inside_frames;
+  };
+  report.figures.emplace_back("zmp_loaded_frames", made.after.loaded_frames);
+  report.figures.emplace_back("zmp_outside_before_frames", outside(made.before));
+  report.figures.emplace_back("zmp_outside_frames", outside(made.after));
+  report.figures.emplace_back("max_shift_mm", kToMm * made.max_shift_m);
+  report.figures.emplace_back("lowered_mm", kToMm * made.lowered_m);
+  report.figures.emplace_back(
+      "displaced_mm",
+      kToMm * mark_displaced(out, state.motion, weights.frames, context.index));
+  if (made.after.worst_frame) {
+    report.findings.push_back(
+        fair_finding("zmp",
+                     "frame " + std::to_string(*made.after.worst_frame),
+                     "the zero moment point stays outside of the support area in " +
+                         std::to_string(outside(made.after)) + " frames, by up to " +
+                         format_text("%.0f mm", kToMm * made.after.worst_outside_m),
+                     "check the contacts there, or balance a span without these frames")
+            .measured(kToMm * made.after.worst_outside_m, std::nullopt, "mm"));
+  }
+  if (made.missed_m > kShown_m) {
+    report.findings.push_back(left_place(state, made.missed_m, made.missed_frame));
+  }
+  return out;
+}
+
 }  // namespace
 
-Result<EditState> apply_balance(const BalanceOp& /*op*/,
+Result<EditState> apply_balance(const BalanceOp& op,
                                 const OpContext& context,
                                 const EditState& state,
                                 OpReport& report) {
@@ -108,6 +154,9 @@ Result<EditState> apply_balance(const BalanceOp& /*op*/,
   if (!weights) return weights.error();
   const auto masses = retarget::place_masses(state.motion.skeleton, state.map, {});
   if (!masses) return masses.error();
+  if (op.mode == EditBalance::kZmp) {
+    return balanced_by_zmp(context, state, *masses, *weights, report);
+  }
   const std::vector<glm::dvec3> shift = balancing_shift(state, *masses);
   EditState out = state;
   double max_shift_m = 0.0;
@@ -126,15 +175,7 @@ Result<EditState> apply_balance(const BalanceOp& /*op*/,
         state, state.motion, weights->frames, keep_both_feet(state), out.motion);
     report.figures.emplace_back("lowered_mm", kToMm * held.lowered_m);
     if (held.missed_m > kShown_m) {
-      report.findings.push_back(
-          fair_finding(
-              "reach",
-              "legs",
-              "a foot leaves its place by " +
-                  format_text("%.0f mm", kToMm * held.missed_m) + " at " +
-                  format_text("%.2f s", held.missed_frame / state.motion.rate.hz),
-              "correct the posture there first")
-              .measured(kToMm * held.missed_m, std::nullopt, "mm"));
+      report.findings.push_back(left_place(state, held.missed_m, held.missed_frame));
     }
   }
   const int after = outside_frames(out.motion, out, *masses, supported);

@@ -15,6 +15,13 @@ namespace marey::edit {
 /// follow (hold_feet()). Walks and jumps, whose centre of mass is faster than 0.7 leg
 /// lengths per second, stay as they are. Masses are de Leva's.
 ///
+/// With EditBalance::kZmp: puts the zero moment point of the whole motion into the
+/// support area (shift_zmp()); also of walks and jumps. Only standing feet keep their
+/// places. Figures: zmp_outside_before_frames and zmp_outside_frames (loaded frames with
+/// support whose zero moment point is outside), zmp_loaded_frames, max_shift_mm,
+/// lowered_mm, displaced_mm. One finding names the frame that remains
+/// furthest outside, another the feet that leave their places.
+///
 /// The shift acts by op_weights(): frames beyond span and fades keep their pose to the
 /// bit, and so does a motion that needs no shift. Figures: outside_before_frames and
 /// outside_frames (frames with support whose centre of mass is outside the convex hull of

@@ -190,7 +190,13 @@ Result<AdaptedMotion> adapt_motion(const Motion& motion,
     MAREY_ASSERT(track.p_in_world.size() == motion.poses.size());
     all.constraints.push_back(track.constraint);
   }
-  Result<Adapter> adapter = Adapter::make(character, all, options.adapt);
+  const bool has_targets = !options.com_in_world.empty();
+  MAREY_ASSERT(!has_targets || options.com_in_world.size() == motion.poses.size());
+  AdaptOptions adapt = options.adapt;
+  if (has_targets && adapt.balance == BalanceMode::kZmp) {
+    adapt.balance = BalanceMode::kHorizontal;
+  }
+  Result<Adapter> adapter = Adapter::make(character, all, adapt);
   if (!adapter) return adapter.error();
   if (const Status ok = take_loads(character, options.carried, *adapter); !ok) {
     return ok.error();
@@ -217,6 +223,7 @@ Result<AdaptedMotion> adapt_motion(const Motion& motion,
   AwayWatch watch(world_from_joint.size(), motion.rate);
   for (std::size_t t = 0; t < motion.poses.size(); ++t) {
     for (TrackDriver& driver : drivers) driver.at(t);
+    if (has_targets) adapter->set_balance_target(options.com_in_world[t]);
     world_from_joints(motion.skeleton, motion.poses[t], reference);
     const double time_s = (motion.first_frame + static_cast<double>(t)) / motion.rate.hz;
     const AdaptReport report =

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "core/base/ids.h"
 #include "core/base/progress.h"
 #include "core/base/result.h"
@@ -25,6 +27,9 @@ struct AdaptMotionOptions {
   /// the body's own centre of mass in the motion, or that position moved with the
   /// supports (Adapter::set_balance_target()).
   std::vector<std::string> carried;
+  /// Targets of the centre of mass, loads included, one per frame; empty: those of the
+  /// motion. BalanceMode::kZmp needs them.
+  std::span<const glm::dvec3> com_in_world{};
 };
 
 /// Errors of one constraint over the frames in which it is fully active.
@@ -78,7 +83,7 @@ struct AdaptedMotion {
 ///
 /// Errors (bad input): those of Adapter::make(); a load that the character does not have.
 /// Precondition: the motion has the character's skeleton; the rate is positive; the
-/// tracks have the frames of the motion.
+/// tracks and options.com_in_world have the frames of the motion, unless empty.
 [[nodiscard]] Result<AdaptedMotion> adapt_motion(const Motion& motion,
                                                  const Character& character,
                                                  const ConstraintSet& constraints,

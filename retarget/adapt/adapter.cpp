@@ -36,6 +36,14 @@ Status check_options(const AdaptOptions& options) {
                      "a threshold or a duration is negative or not a number",
                      "give metres and seconds, 0 or more");
   }
+  if (options.balance == BalanceMode::kZmp) {
+    return bad_input(
+        "adaptation",
+        "balance by the zero moment point needs a whole motion, not single "
+        "postures",
+        "use horizontal balance, or adapt_motion() with a centre of mass per "
+        "frame");
+  }
   if (options.max_iterations < 1) {
     return bad_input(
         "adaptation", "max_iterations is below 1", "use at least 1; the default is 50");

@@ -30,6 +30,9 @@ enum class BalanceMode {
   kOff,
   kHorizontal,  ///< Vertically above the target: quasi-static balance.
   k3d,          ///< At the target: flight.
+  /// Above the targets of AdaptMotionOptions::com_in_world, which keep the zero moment
+  /// point inside the support area. For whole motions; Adapter::make() refuses it.
+  kZmp,
 };
 
 struct AdaptOptions {

@@ -184,6 +184,7 @@ void balance_of_posture(const BodyMap& map,
   out.centre_of_mass_in_world = centre_of_mass(masses, world_from_joint);
   out.support_xz_m.reserve(Hull::kMax);
   out.support_xz_m.assign(corners.begin(), corners.end());
+  out.zmp_xz_m.reset();
 }
 
 BalanceTrack track_balance(const Motion& motion,
@@ -212,7 +213,7 @@ std::vector<BalanceFrame> balance_frames(const Motion& motion,
                  contacts,
                  [&](std::size_t t, const glm::dvec3& centre, const Hull& hull) {
                    const auto corners = hull.corners();
-                   out[t] = {centre, {corners.begin(), corners.end()}};
+                   out[t] = {centre, {corners.begin(), corners.end()}, {}};
                  });
   return out;
 }

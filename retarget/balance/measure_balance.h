@@ -25,6 +25,9 @@ struct BalanceFrame {
   /// Corners of the support area in ground projection (X, Z), in order, as in
   /// track_balance(). Empty without support.
   std::vector<glm::dvec2> support_xz_m;
+  /// Zero moment point on the floor. Set by callers that know it; nullopt: not computed,
+  /// or undefined (flight).
+  std::optional<glm::dvec2> zmp_xz_m{};
 };
 
 /// Computes the frame of one posture with the given standing feet. Writes to `out`;

@@ -115,6 +115,7 @@ TEST_F(PlainMessages, NameAMissingArgumentByItsUpperCaseWord) {
            {{"replay"}, 2, "TAKE is missing"},
            {{"listen"}, 2, "BODY is missing"},
            {{"adapt", "--out", "a.bvh"}, 2, "MOTION is missing"},
+           {{"jump", "--out", "a.bvh"}, 2, "MOTION is missing"},
            {{"retarget", "walk.bvh", "--out", "a"}, 2, "AVATAR is missing"},
            {{"listen", "walk.bvh"}, 2, "no output is given"}}) {
     expect(bad);
@@ -222,6 +223,7 @@ TEST_F(PlainMessages, RefuseAFolderInPlaceOfAFile) {
            {{"convert", "folder", "a.bvh"}, 3, "a folder is not converted"},
            {{"convert", "walk.bvh", "folder.bvh"}, 3, "the result is one file"},
            {{"adapt", "walk.bvh", "--out", "folder"}, 3, "the result is one file"},
+           {{"jump", "walk.bvh", "--out", "folder"}, 3, "the result is one file"},
            {{"repair", "walk.trc", "--out", "folder.c3d"}, 3, "the result is one file"},
            {{"mannequin", "--out", "folder.glb"}, 3, "the result is one file"},
            {{"replay", "walk.bvh"}, 3, "this is a file, not the folder of a take"}}) {
@@ -239,6 +241,7 @@ TEST_F(PlainMessages, HaveOneWordingForAMissingFile) {
            {{"repair", "gone.trc", "--out", "a.trc"}, 3, missing},
            {{"fit", "gone.trc", "--out", "a"}, 3, missing},
            {{"adapt", "gone.bvh", "--out", "a.bvh"}, 3, missing},
+           {{"jump", "gone.bvh", "--out", "a.bvh"}, 3, missing},
            {{"retarget", "gone.bvh", "walk.bvh", "--out", "a"}, 3, missing},
            {{"listen", "gone.vrm", "--out", "a.bvh"}, 3, missing},
            {{"replay", "gone"}, 3, missing},
