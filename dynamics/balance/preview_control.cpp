@@ -76,10 +76,22 @@ PreviewGains preview_gains(FrameRate rate,
     out.of_preview.push_back(glm::dot(b_all, influence) / scale);
     influence = glm::transpose(closed) * influence;
   }
-  // The last known point stands for all later ones, so a body at rest over it stays.
+  // The last known points stand for all later ones, so a body at rest over them stays.
+  // They count more gradually towards the end: a point that becomes known moves the body
+  // without a jerk.
   const double sum =
       std::accumulate(out.of_preview.begin(), out.of_preview.end(), gain[1]);
-  out.of_preview.back() -= sum;
+  const std::size_t count = out.of_preview.size();
+  const std::size_t tail = std::max<std::size_t>(count / 2, 1);
+  const auto share = [&](std::size_t i) {
+    const double at = (static_cast<double>(i) + 0.5) / static_cast<double>(tail);
+    return at * (1.0 - at);
+  };
+  double total = 0.0;
+  for (std::size_t i = 0; i < tail; ++i) total += share(i);
+  for (std::size_t i = 0; i < tail; ++i) {
+    out.of_preview[count - 1 - i] -= sum * share(i) / total;
+  }
   return out;
 }
 

@@ -27,8 +27,8 @@ struct PreviewOptions {
 struct PreviewGains {
   double of_error = 0.0;
   std::array<double, 3> of_state{};
-  /// One per frame of the preview. The last one includes the gains of all later frames,
-  /// in which the last point is assumed.
+  /// One per frame of the preview. Those of the second half include the gains of all
+  /// later frames.
   std::vector<double> of_preview;
 };
 
@@ -51,9 +51,9 @@ class PreviewControl {
 
   /// Places the centre of mass at rest over a point.
   void reset(const glm::dvec2& p_xz_m);
-  /// Advances by one frame. `wanted_xz_m` are the points of this frame and of those that
-  /// follow; further ones than preview_frames() are not used, and the last one holds for
-  /// missing ones. Allocates nothing. Precondition: at least one point.
+  /// Advances by one frame. `wanted_xz_m` has the point of this frame and the following
+  /// preview_frames() points; the last one is repeated if it has fewer, and more are not
+  /// used. Allocates nothing. Precondition: at least one point.
   void step(std::span<const glm::dvec2> wanted_xz_m);
 
   [[nodiscard]] glm::dvec2 com_xz_m() const { return position_; }

@@ -24,11 +24,12 @@ TEST(AdaptZmp, AlmostAllZeroMomentPointsOfAWalkAreInside) {
       edit::zmp_ground(body->reference, body->map, body->contacts);
   const auto outside = [&](const Motion& motion) {
     int out = 0;
-    for (const testing::JudgedZmp& one : testing::judge_zmp(motion,
-                                                            body->map,
-                                                            body->character.masses,
-                                                            ground.loaded,
-                                                            ground.floor_height_m)) {
+    for (const testing::JudgedZmp& one :
+         testing::judge_zmp(motion,
+                            testing::judged_feet(body->map),
+                            body->character.masses,
+                            ground.loaded,
+                            ground.floor_height_m)) {
       if (one.vertical_force_g >= 0.2 && one.outside_m && *one.outside_m > 1e-6) ++out;
     }
     return out;
