@@ -115,6 +115,25 @@ void add_push(CLI::App& command, JumpArguments& args) {
       ->check(within(recipe::kGravity));
 }
 
+/// Returns the option of a key of the operation; other words unchanged.
+std::string option_of_key(const std::string& key) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kOptions{
+      {{"apex_m", "--apex"},
+       {"apex_by_m", "--apex-by"},
+       {"airtime_s", "--airtime"},
+       {"length_m", "--length"},
+       {"land_m", "--land"},
+       {"box_m", "--box"},
+       {"push_s", "--push-time"},
+       {"push_start", "--push-start"},
+       {"strength_g", "--strength"},
+       {"gravity_m_s2", "--gravity"}}};
+  for (const auto& [name, option] : kOptions) {
+    if (key == name) return std::string(option);
+  }
+  return key;
+}
+
 }  // namespace
 
 void add_jump_options(CLI::App& command, JumpArguments& args) {
@@ -171,22 +190,27 @@ EditRecipe jump_recipe(const JumpArguments& args) {
   return out;
 }
 
-std::string jump_option_of(const std::string& key) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kOptions{
-      {{"apex_m", "--apex"},
-       {"apex_by_m", "--apex-by"},
-       {"airtime_s", "--airtime"},
-       {"length_m", "--length"},
-       {"land_m", "--land"},
-       {"box_m", "--box"},
-       {"push_s", "--push-time"},
-       {"push_start", "--push-start"},
-       {"strength_g", "--strength"},
-       {"gravity_m_s2", "--gravity"}}};
-  for (const auto& [name, option] : kOptions) {
-    if (key == name) return std::string(option);
+std::string with_jump_options(const std::string& text) {
+  std::string out;
+  std::string word;
+  // The end of the text closes the last word.
+  for (std::size_t i = 0; i <= text.size(); ++i) {
+    const char c = i < text.size() ? text[i] : ' ';
+    const bool in_word = c == '_' || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+    if (in_word) {
+      word += c;
+      continue;
+    }
+    out += option_of_key(word);
+    word.clear();
+    if (i < text.size()) out += c;
   }
-  return key;
+  const std::string_view law = "law = \"";
+  const std::size_t found = out.find(law);
+  if (found == std::string::npos) return out;
+  const std::size_t quote = out.find('"', found + law.size());
+  if (quote != std::string::npos) out.erase(quote, 1);
+  return out.replace(found, law.size(), "--law ");
 }
 
 }  // namespace marey::app

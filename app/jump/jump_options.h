@@ -43,8 +43,8 @@ void add_jump_options(CLI::App& command, JumpArguments& args);
 /// motion. Precondition: the options' checks passed.
 [[nodiscard]] EditRecipe jump_recipe(const JumpArguments& args);
 
-/// Returns the option for a key of the operation: "--apex" for "apex_m"; other words
-/// unchanged.
-[[nodiscard]] std::string jump_option_of(const std::string& key);
+/// Returns a message of the operation with the options in place of the keys of recipes:
+/// "--apex" for "apex_m". Other words stay.
+[[nodiscard]] std::string with_jump_options(const std::string& text);
 
 }  // namespace marey::app

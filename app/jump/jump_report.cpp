@@ -14,7 +14,7 @@ namespace {
 struct LineFigure {
   const char* figure;  ///< Its captured value is in "captured_FIGURE".
   const char* words;   ///< In front of the number.
-  const char* format;  ///< Of the number, with its unit.
+  const char* format;  ///< printf() format of the number, with its unit.
 };
 
 constexpr std::array<LineFigure, 6> kTimes{{{"start_s", "push", "%.3f s"},

@@ -49,7 +49,7 @@ std::string place_in_motion(const JumpArguments& args, std::string where) {
     if (where.starts_with(prefix)) where.erase(0, prefix.size());
   }
   const std::string file = args.motion.string();
-  return where.empty() ? file : file + ": " + jump_option_of(where);
+  return where.empty() ? file : file + ": " + with_jump_options(where);
 }
 
 std::vector<Finding> findings_of_jump(const JumpArguments& args, const EditRun& run) {
@@ -61,6 +61,8 @@ std::vector<Finding> findings_of_jump(const JumpArguments& args, const EditRun& 
   }
   for (Finding finding : run.rendered.reports.front().findings) {
     finding.where = place_in_motion(args, finding.where);
+    finding.cause = with_jump_options(finding.cause);
+    finding.next = with_jump_options(finding.next);
     out.push_back(std::move(finding));
   }
   return out;
@@ -118,6 +120,8 @@ Result<JumpRun> run_jump_edit(const JumpArguments& args,
   if (!edit) {
     Error error = edit.error();
     error.where = place_in_motion(args, error.where);
+    error.cause = with_jump_options(error.cause);
+    error.next = with_jump_options(error.next);
     return error;
   }
   JumpRun out;

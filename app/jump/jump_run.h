@@ -19,8 +19,9 @@ namespace marey::app {
 /// A motion with a changed jump.
 struct JumpRun {
   EditRun edit;         ///< One output, one report.
-  EditFigures figures;  ///< Of the output, by forward kinematics.
-  /// Of the readers and of the operation; places name the motion's file or an option.
+  EditFigures figures;  ///< Figures of the output, by forward kinematics.
+  /// Findings of the readers and the operation; places name the motion's file or an
+  /// option.
   std::vector<Finding> findings;
 
   [[nodiscard]] const edit::EditState& state() const {
@@ -38,7 +39,8 @@ struct JumpRun {
 /// Reads the motion, puts it on the character's body if there is one, and applies the
 /// operation `jump`. Writes nothing.
 /// Errors: those of read_edit_files(), make_adapt_body(), render() and
-/// check_result_format(). Those of the operation name the motion's file and the option.
+/// check_result_format(). An error of the operation names the motion's file and the
+/// option.
 [[nodiscard]] Result<JumpRun> run_jump_edit(const JumpArguments& args,
                                             MotionFormat format,
                                             Console& console);

@@ -43,7 +43,8 @@ void LivePage::pose_bodies(const LiveResult& result) {
     const auto handles = figure == 1 ? result.handles : std::span<const HandleState>();
     const auto* balance = balance_->measure(figure, *posture, handles);
     if (balance == nullptr) return;
-    one.balance = {balance->centre_of_mass_in_world, balance->support_xz_m};
+    one.balance = {
+        balance->centre_of_mass_in_world, balance->support_xz_m, balance->zmp_xz_m};
   };
   pose(0, result.pose);
   for (std::size_t a = 0; a < result.avatars.size(); ++a) pose(a + 1, &result.avatars[a]);

@@ -21,16 +21,27 @@ LiveBalance::LiveBalance(std::span<const Skeleton* const> bodies) {
                  *std::move(map),
                  *std::move(masses),
                  std::vector<RigidTransform>(skeleton->joints.size()),
-                 retarget::BalanceFrame{});
+                 retarget::BalanceFrame{},
+                 LiveZmp{});
   }
 }
 
 void LiveBalance::step(const Pose& performer, double since_last_s) {
   MAREY_ASSERT(!bodies_.empty());
+  time_s_ += since_last_s;
   auto& body = bodies_.front();
   if (!body) return;
   world_from_joints(body->skeleton, performer, body->world_from_joint);
   stance_.step(body->map, body->world_from_joint, since_last_s);
+}
+
+void LiveBalance::reset() {
+  stance_.reset();
+  for (auto& body : bodies_) {
+    if (!body) continue;
+    body->zmp.reset();
+    body->measured_s.reset();
+  }
 }
 
 const retarget::BalanceFrame* LiveBalance::measure(std::size_t body,
@@ -49,6 +60,12 @@ const retarget::BalanceFrame* LiveBalance::measure(std::size_t body,
   }
   world_from_joints(of.skeleton, posture, of.world_from_joint);
   balance_of_posture(of.map, of.masses, of.world_from_joint, standing, of.balance);
+  const double since_last_s = of.measured_s ? time_s_ - *of.measured_s : time_s_;
+  if (since_last_s > 0.0) {
+    of.zmp.step(of.balance.centre_of_mass_in_world, since_last_s);
+    of.measured_s = time_s_;
+  }
+  of.balance.zmp_xz_m = of.zmp.on_floor(0.0);
   return &of.balance;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/live_chain/live_handles.h"
+#include "app/live_chain/live_zmp.h"
 #include "core/character.h"
 #include "core/pose.h"
 #include "core/skeleton.h"
@@ -19,7 +20,8 @@
 namespace marey::app {
 
 /// Computes centre of mass and support of a live performer and of its avatars, pose by
-/// pose; `marey view` shows the same values of recordings. All bodies share the
+/// pose; `marey view` shows the same values of recordings. The zero moment point is an
+/// estimate (LiveZmp). All bodies share the
 /// supporting feet of the performer, which are detected from its poses.
 ///
 /// The same poses and time steps give bit-identical results. Cost: some microseconds per
@@ -33,7 +35,7 @@ class LiveBalance {
   /// Processes the performer's next pose. Precondition: since_last_s > 0.
   void step(const Pose& performer, double since_last_s);
   /// Resets the detection of supporting feet: the next pose is treated as the first.
-  void reset() { stance_.reset(); }
+  void reset();
 
   /// Returns the performer's supporting feet as of the last step().
   [[nodiscard]] const std::array<retarget::StandingFoot, 2>& standing() const {
@@ -51,10 +53,14 @@ class LiveBalance {
     std::vector<PointMass> masses;
     std::vector<RigidTransform> world_from_joint;
     retarget::BalanceFrame balance;
+    LiveZmp zmp;
+    /// Time of the last measure(). The same pose may be measured again.
+    std::optional<double> measured_s{};
   };
 
   std::vector<std::optional<Body>> bodies_;
   retarget::LiveStance stance_;
+  double time_s_ = 0.0;  ///< Sum of the time steps.
 };
 
 }  // namespace marey::app

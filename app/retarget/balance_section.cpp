@@ -15,10 +15,17 @@ std::string share_cell(const retarget::BalanceFigures& figures) {
   return text_of("<td class=\"number\">%.1f %%</td>", 100.0 * figures.over_share());
 }
 
+/// Returns the cells on the zero moment points; empty cells without a supported frame.
+std::string zmp_cells(const dynamics::ZmpFigures& figures) {
+  if (figures.supported_frames == 0) return "<td></td><td></td>";
+  return text_of("<td class=\"number\">%.1f %%</td>", 100.0 * figures.inside_share()) +
+         text_of("<td class=\"number\">%.0f mm</td>", 1e3 * figures.worst_outside_m);
+}
+
 std::string row_of(const RetargetRun& run, const AvatarResult& avatar) {
   const auto made = retarget::balance_measures(avatar.balance, run.balance);
   std::string out = "<tr><th>" + escaped(avatar.name) + "</th>" + share_cell(made) +
-                    frames_cell(made.lost_frames);
+                    frames_cell(made.lost_frames) + zmp_cells(avatar.zmp);
   const auto& report = avatar.retargeted.report.balance;
   if (!report) return out + "<td></td><td></td><td></td><td></td><td></td></tr>\n";
   return out + share_cell(report->before) + frames_cell(report->before.lost_frames) +
@@ -77,15 +84,20 @@ std::string balance_section(const RetargetRun& run, const std::vector<int>& mome
       "support; in dynamic motions it is mostly outside. Lost: frames in which the "
       "source is above its support and the body is not. Off: distance from the source's "
       "place in the support. Without: before the root is moved for balance, and before "
-      "hands; empty without --balance."
+      "hands; empty without --balance. Zero moment point: share of the frames with a "
+      "bearing foot in which it is inside the support, and its largest distance outside; "
+      "it includes the accelerations of the motion."
       "</p>\n<div class=\"scroll\"><table><thead><tr><th>Body</th><th "
       "class=\"number\">Over its support</th><th class=\"number\">Frames lost</th><th "
+      "class=\"number\">Zero moment point "
+      "inside</th><th class=\"number\">outside by up to</th><th "
       "class=\"number\">Without: over</th><th class=\"number\">lost</th><th "
       "class=\"number\">Off</th><th class=\"number\">without</th><th "
       "class=\"number\">Root moved by up "
       "to</th></tr></thead><tbody>\n<tr><th>source</th>";
-  out += share_cell(source) +
-         "<td></td><td></td><td></td><td></td><td></td><td></td></tr>\n";
+  out +=
+      share_cell(source) +
+      "<td></td><td></td><td></td><td></td><td></td><td></td><td></td><td></td></tr>\n";
   for (const AvatarResult& avatar : run.avatars) {
     if (!avatar.error) out += row_of(run, avatar);
   }

@@ -95,7 +95,7 @@ class JumpJudge {
     if (!plan || !plan->touchdown()) return;
     judge_flight(wanted, *plan, result, out);
     judge_landing(*plan, result, out);
-    for (double t = plan->start_s(); t <= plan->rest()->time_s; t += 1e-3) {
+    for (double t = plan->start_s() + 1e-6; t < plan->rest()->time_s; t += 1e-3) {
       out.least_push_g = std::min(out.least_push_g, plan->push_g(t));
     }
     out.slide_mm = std::max(out.slide_mm, figure_of(report, "slide_mm"));
@@ -195,7 +195,9 @@ std::vector<JumpCase> wishes_of(const dynamics::Jump& jump) {
     one.wish.apex_by_m = (rise - 1.0) * rise_m;
     out.push_back(one);
   }
-  const double airtime_s = jump.touchdown->time_s - jump.takeoff.time_s;
+  // On a scaled body the natural airtime is that of its own fall.
+  const double airtime_s = (jump.touchdown->time_s - jump.takeoff.time_s) *
+                           std::sqrt(jump.gravity_m_s2 / 9.81);
   for (const double factor : {0.8, 1.2}) {
     JumpCase one;
     one.wish.airtime_s = factor * airtime_s;

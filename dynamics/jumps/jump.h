@@ -49,7 +49,8 @@ struct Jump {
   /// kInferred: they do not, or the feet are unknown: the acceleration's.
   Source takeoff_source = Source::kInferred;
   Source landing_source = Source::kInferred;
-  /// Middle of the soles that bear last, and first: on the floor.
+  /// Middle of the soles that bear last, and first, at the height of their lowest point:
+  /// on the floor. Without soles: below the centre of mass, at height 0.
   glm::dvec3 takeoff_feet_in_world{0.0};
   std::optional<glm::dvec3> landing_feet_in_world{};
 
@@ -58,8 +59,9 @@ struct Jump {
   double fall_m_s2 = 0.0;
   double fall_rising_m_s2 = 0.0;
   double fall_falling_m_s2 = 0.0;
-  /// Gravity of the fitted parabola: the option's, or the captured one if that differs by
-  /// more than 1 m/s^2.
+  /// Gravity of the fitted parabola: the expected one, or the captured one if that
+  /// differs by more than 1 m/s^2, and by enough to be measured in a flight this short
+  /// (5 mm at its middle).
   double gravity_m_s2 = 0.0;
   double flight_rms_m = 0.0;  ///< Distance of the flight's frames from the parabola.
   std::vector<Finding> findings;

@@ -31,6 +31,8 @@ constexpr double kSameTime_s = 1e-3;
 /// Speeds that are tried for the range of a refused push.
 constexpr int kTriedSpeeds = 48;
 constexpr double kMostSpeed = 2.5;
+/// A support may be this much higher than the captured one.
+constexpr double kOverCaptured_m = 0.002;
 /// Durations of a landing that are tried, as factors.
 constexpr std::array kLandingFactors{1.0, 1.1, 1.2, 1.35, 1.5, 1.75, 2.0};
 /// Knots closer to others than this are left out. [s]
@@ -208,6 +210,8 @@ SupportWish JumpPlanner::push_wish(double speed_m_s) const {
   out.gravity_m_s2 = gravity_m_s2_;
   out.max_force_m_s2 = strength_m_s2_;
   out.deepest_m = traits_.deepest_m;
+  out.highest_m = std::max(reference_.push_model().highest_m(), out.end.p_in_world.y) +
+                  kOverCaptured_m;
   out.friction = traits_.friction;
   out.law = options_.law;
   out.lowest = wanted_lowest(reference_.push_model());
@@ -270,6 +274,7 @@ SupportWish JumpPlanner::landing_wish(double duration_s) const {
       strength_m_s2_, gravity_m_s2_ * kStrengthOfPeak * reference_.landing()->peak_g);
   out.deepest_m = traits_.deepest_m;
   if (out.deepest_m) *out.deepest_m += moved_m_.y;
+  out.highest_m = reference_.landing_model()->highest_m() + moved_m_.y + kOverCaptured_m;
   out.friction = traits_.friction;
   return out;
 }

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/smooth_step.h"
 #include "core/signal/choose_smoothing.h"
 #include "core/signal/spline_curve.h"
 
@@ -20,9 +21,17 @@ namespace {
 /// Samples of the force per frame.
 constexpr double kForcesPerFrame = 2.0;
 constexpr double kNoForceLimit_m_s2 = 1e6;
+/// Largest cut-off of the force, times the duration of the push: 10 Hz for 0.7 s. Errors
+/// of a centre of mass are correlated from frame to frame, so cross-validation alone
+/// smooths too little. The residual keeps the rest.
+constexpr double kCutoffPerDuration = 7.0;
+/// Share of a support in which its force rises from a flight's 0, and falls to it.
+constexpr double kFlightTaper = 0.06;
+/// A landing that the clip cuts counts if it lasts this long.
+constexpr double kLeastLanding_s = 0.15;
 
 /// Accelerations of the centre of mass as functions of time.
-std::vector<SplineCurve> acceleration_curves(const BodyTrack& track) {
+std::vector<SplineCurve> acceleration_curves(const BodyTrack& track, double cutoff_hz) {
   const std::size_t count = track.com_in_world.size();
   std::array<std::vector<double>, 3> channels;
   SmoothingChannels smoothing;
@@ -40,7 +49,8 @@ std::vector<SplineCurve> acceleration_curves(const BodyTrack& track) {
   if (!used.empty()) {
     const ChosenPenalties chosen =
         choose_penalties(smoothing, std::vector<std::vector<std::size_t>>{used});
-    smoothing.splines[0].set_penalty(chosen.groups[0]);
+    smoothing.splines[0].set_penalty(
+        std::max(chosen.groups[0], penalty_of_half_power(cutoff_hz, track.rate.hz, {3})));
   } else {
     smoothing.splines[0].set_penalty(1.0);
   }
@@ -51,14 +61,21 @@ std::vector<SplineCurve> acceleration_curves(const BodyTrack& track) {
   return out;
 }
 
+/// A support to be described.
+struct SupportSpan {
+  ComState start;
+  ComState end;
+  bool from_flight = false;
+  bool to_flight = false;
+};
+
 SupportReference support_reference(const std::vector<SplineCurve>& acceleration,
-                                   const ComState& start,
-                                   const ComState& end,
+                                   const SupportSpan& span,
                                    double gravity_m_s2,
                                    double rate_hz) {
   SupportReference out;
-  out.start = start;
-  out.end = end;
+  out.start = span.start;
+  out.end = span.end;
   out.gravity_m_s2 = gravity_m_s2;
   const double duration_s = out.duration_s();
   const auto count =
@@ -66,12 +83,18 @@ SupportReference support_reference(const std::vector<SplineCurve>& acceleration,
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::vector<double> force;
     for (std::size_t k = 0; k < count; ++k) {
-      const double time_s = start.time_s + duration_s * static_cast<double>(k) /
-                                               static_cast<double>(count - 1);
+      const double share = static_cast<double>(k) / static_cast<double>(count - 1);
+      const double time_s = span.start.time_s + duration_s * share;
       const double at_s = std::clamp(time_s, 0.0, acceleration[axis].end_s());
       double value = acceleration[axis].at(at_s, 2);
       if (axis == 1) {
         value = std::max(0.0, value + gravity_m_s2);
+      }
+      if (span.from_flight) value *= smooth_step(share / kFlightTaper);
+      if (span.to_flight) {
+        value *= smooth_step((1.0 - share) / kFlightTaper);
+      }
+      if (axis == 1) {
         out.peak_g = std::max(out.peak_g, value / gravity_m_s2);
       }
       force.push_back(value);
@@ -111,19 +134,37 @@ std::optional<JumpReference> JumpReference::make(const BodyTrack& track,
     for (std::size_t i = 0; i < count; ++i) values[i] = track.com_in_world[i][axis];
     out.path_.emplace_back(times, values);
   }
-  const std::vector<SplineCurve> curves = acceleration_curves(track);
+  const std::vector<SplineCurve> curves = acceleration_curves(
+      track, kCutoffPerDuration / (jump.takeoff.time_s - jump.start.time_s));
   for (std::size_t i = 0; i < count; ++i) {
     const double at_s = std::min(times[i], curves[1].end_s());
     out.push_g_.push_back(curves[1].at(at_s, 2) / jump.gravity_m_s2 + 1.0);
   }
-  out.push_ = std::make_shared<const SupportReference>(support_reference(
-      curves, jump.start, jump.takeoff, jump.gravity_m_s2, track.rate.hz));
+  const bool from_flight = jump.start_kind == PushStart::kTouchdown;
+  out.push_ = std::make_shared<const SupportReference>(
+      support_reference(curves,
+                        {jump.start, jump.takeoff, from_flight, true},
+                        jump.gravity_m_s2,
+                        track.rate.hz));
   const auto push = model_of(*out.push_);
   if (!push) return std::nullopt;
   out.push_model_ = *push;
-  if (jump.touchdown && jump.rest) {
+  if (jump.touchdown && !jump.rest &&
+      out.end_s_ - jump.touchdown->time_s >= kLeastLanding_s) {
+    // The clip ends before the body rests: its end counts as P5.
+    ComState end{out.end_s_, track.com_in_world.back(), {}};
+    for (int axis = 0; axis < 3; ++axis) {
+      const SplineCurve& curve = curves[static_cast<std::size_t>(axis)];
+      end.velocity_m_s[axis] = curve.at(curve.end_s(), 1);
+    }
+    out.jump_.rest = end;
+  }
+  if (out.jump_.touchdown && out.jump_.rest) {
     out.landing_ = std::make_shared<const SupportReference>(support_reference(
-        curves, *jump.touchdown, *jump.rest, jump.gravity_m_s2, track.rate.hz));
+        curves,
+        {*out.jump_.touchdown, *out.jump_.rest, true, jump.rest_is_takeoff},
+        jump.gravity_m_s2,
+        track.rate.hz));
     out.landing_model_ = model_of(*out.landing_);
     if (!out.landing_model_) out.landing_.reset();
   }

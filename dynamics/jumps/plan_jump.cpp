@@ -10,17 +10,13 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/base/smooth_step.h"
+
 namespace marey::dynamics {
 namespace {
 
-/// Time in which the residual fades between flight and support.
-constexpr double kResidualFade_s = 0.1;
-
-/// Rises from 0 to 1 with zero first and second derivatives at both ends.
-double smooth_rise(double x) {
-  x = std::clamp(x, 0.0, 1.0);
-  return x * x * x * (10.0 + x * (6.0 * x - 15.0));
-}
+/// Share of a support in which the residual fades beside the flight.
+constexpr double kResidualFade = 0.14;
 
 }  // namespace
 
@@ -41,14 +37,14 @@ double JumpPlan::apex_m() const {
 }
 
 double JumpPlan::residual_share(double time_s) const {
-  double from_flight_s = 0.0;
+  double from_flight = 0.0;
   if (time_s < takeoff_.time_s) {
-    from_flight_s = takeoff_.time_s - time_s;
+    from_flight = (takeoff_.time_s - time_s) / push_.duration_s();
   } else if (landing_ && time_s > touchdown_->time_s) {
-    from_flight_s = time_s - touchdown_->time_s;
+    from_flight = (time_s - touchdown_->time_s) / landing_->duration_s();
   }
   return flight_residual_share_ +
-         (1.0 - flight_residual_share_) * smooth_rise(from_flight_s / kResidualFade_s);
+         (1.0 - flight_residual_share_) * smooth_step(from_flight / kResidualFade);
 }
 
 glm::dvec3 JumpPlan::com_in_world(double time_s) const {

@@ -44,7 +44,12 @@ std::optional<std::variant<ForcePush, ThesisPush>> vertical_push(
     ForceLimits limits;
     limits.max_force_m_s2 = wish.max_force_m_s2;
     limits.deepest_m = wish.deepest_m;
-    const auto made = derive_push(reference.axes[1], ends, limits, tied);
+    limits.highest_m = wish.highest_m;
+    auto made = derive_push(reference.axes[1], ends, limits, tied);
+    if (!made && limits.highest_m) {
+      limits.highest_m.reset();
+      made = derive_push(reference.axes[1], ends, limits, tied);
+    }
     if (!made) return std::nullopt;
     return *made;
   }
@@ -99,10 +104,12 @@ void SupportPush::measure() {
   int lowest = 0;
   double height = height_m(0.0);
   peak_force_m_s2_ = 0.0;
+  highest_m_ = height;
   for (int k = 0; k <= kSupportInstants; ++k) {
     const double t_s = std::min(k * step_s, duration_s_);
     peak_force_m_s2_ = std::max(peak_force_m_s2_, vertical_force_m_s2(t_s));
     const double here = height_m(t_s);
+    highest_m_ = std::max(highest_m_, here);
     if (here < height) {
       height = here;
       lowest = k;

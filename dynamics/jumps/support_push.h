@@ -32,6 +32,8 @@ struct SupportWish {
   double gravity_m_s2 = kStandardGravity_m_s2;
   double max_force_m_s2 = 0.0;
   std::optional<double> deepest_m{};
+  /// Height above which legs are too short; left out where no push obeys it.
+  std::optional<double> highest_m{};
   double friction = 0.8;
   PushLawKind law = PushLawKind::kForce;
   LowestPoint lowest;  ///< For the thesis law.
@@ -51,6 +53,8 @@ class SupportPush {
   [[nodiscard]] bool within_friction() const { return within_friction_; }
   /// Time and height of the lowest point, to 1e-6 of the duration.
   [[nodiscard]] LowestPoint lowest() const { return lowest_; }
+  /// Highest point before the end. [m]
+  [[nodiscard]] double highest_m() const { return highest_m_; }
   /// Largest vertical force. [m/s^2]
   [[nodiscard]] double peak_force_m_s2() const { return peak_force_m_s2_; }
 
@@ -67,6 +71,7 @@ class SupportPush {
   bool within_friction_ = true;
   LowestPoint lowest_;
   double peak_force_m_s2_ = 0.0;
+  double highest_m_ = 0.0;
 };
 
 /// Derives the support that meets the wish. The vertical axis is solved first; horizontal

@@ -45,12 +45,15 @@ BallisticReport make_ballistic(const Skeleton& skeleton,
   };
   const double whole_s = static_cast<double>(poses.size() - 1) / rate.hz;
   const glm::dvec3 fall(0.0, -options.gravity_m_s2, 0.0);
-  const glm::dvec3 from = com(poses.front());
-  const glm::dvec3 to = com(poses.back());
+  const BallisticEnds ends =
+      options.ends.value_or(BallisticEnds{com(poses.front()), com(poses.back())});
+  const glm::dvec3& from = ends.first_in_world;
+  const glm::dvec3& to = ends.last_in_world;
   out.first_velocity_m_s = (to - from) / whole_s - 0.5 * whole_s * fall;
   out.last_velocity_m_s = out.first_velocity_m_s + whole_s * fall;
   double squares = 0.0;
-  for (std::size_t k = 1; k + 1 < poses.size(); ++k) {
+  const std::size_t first = options.ends ? 0 : 1;
+  for (std::size_t k = first; k + first < poses.size(); ++k) {
     const double t = static_cast<double>(k) / rate.hz;
     const glm::dvec3 wanted = from + t * out.first_velocity_m_s + 0.5 * t * t * fall;
     const glm::dvec3 moved = wanted - com(poses[k]);

@@ -26,10 +26,20 @@ namespace marey::dynamics {
                                                       FrameRate rate,
                                                       std::size_t pose_count);
 
+/// Places of the centre of mass. [m]
+struct BallisticEnds {
+  glm::dvec3 first_in_world{0.0};  ///< At the first pose.
+  glm::dvec3 last_in_world{0.0};   ///< At the last pose.
+};
+
 struct BallisticOptions {
   double gravity_m_s2 = 9.81;  ///< Downwards.
   bool keep_momentum = true;   ///< Also make the angular momentum constant.
   MomentumOptions momentum{};
+  /// Other ends of the parabola, as that of a Jump has them at these two poses. Then the
+  /// first and the last pose are displaced too, by some millimetres, and the caller
+  /// continues that displacement into the support.
+  std::optional<BallisticEnds> ends{};
 };
 
 struct BallisticReport {
@@ -45,8 +55,9 @@ struct BallisticReport {
 
 /// Makes a captured flight a free fall: moves the root of each pose so that the centre of
 /// mass is on the parabola with that gravity through its places in the first and the last
-/// pose, then keep_angular_momentum(). The first and the last pose stay to the bit, so
-/// the feet on the floor do not move and nothing outside of the flight changes. The
+/// pose, then keep_angular_momentum(). Without BallisticOptions::ends the first and the
+/// last pose stay to the bit, so the feet on the floor do not move and nothing outside of
+/// the flight changes. The
 /// duration stays: a capture that falls with another acceleration gets another velocity
 /// at take-off and landing (by half the difference times the duration). The centre of
 /// mass is on the parabola to 1e-9 m.

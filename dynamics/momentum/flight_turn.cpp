@@ -189,8 +189,8 @@ void FlightTurn::march(const glm::dvec3& mean, double scale) {
   }
 }
 
-// Central differences leave the offset between the even and the odd frames open. Of all
-// solutions that end without rotation this one has the smallest second differences.
+// Central differences leave the offset between the even and the odd frames open. This
+// solution ends without rotation and has the smallest second differences.
 bool FlightTurn::solve(glm::dvec3& first, glm::dvec3& momentum) const {
   Equations e{};
   const auto column = [](const Row& row, std::size_t c) {

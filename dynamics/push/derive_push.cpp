@@ -9,7 +9,7 @@
 #include "dynamics/push/dual_active_set.h"
 #include "dynamics/push/force_push.h"
 #include "dynamics/push/force_splines.h"
-#include "dynamics/push/push_samples.h"
+#include "dynamics/push/push_reference.h"
 
 #include "core/base/assert.h"
 
@@ -202,6 +202,7 @@ class ForcePushMaker {
     auto rule = broken_force(limits.max_force_m_s2);
     if (!rule) rule = broken_tie();
     if (!rule && limits.deepest_m) rule = broken_height(*limits.deepest_m);
+    if (!rule && limits.highest_m) rule = broken_top(*limits.highest_m);
     if (!rule && limits.fall_then_rise) rule = broken_direction();
     return rule;
   }
@@ -250,6 +251,24 @@ class ForcePushMaker {
     spline_tables().splines.write_double_integrals(x, row);
     const double now = dot_program_rows(row, program_.point());
     return at_least(row, now + (deepest_m - height_m) / (t * t));
+  }
+
+  [[nodiscard]] std::optional<ProgramRule> broken_top(double highest_m) const {
+    const double t = push_.duration_s();
+    std::size_t highest = 0;
+    double top_m = -kNoLimit;
+    for (std::size_t k = 1; k + 1 < kForceInstants; ++k) {
+      const double height_m = push_.height_m(instant_x(k) * t);
+      if (height_m <= top_m) continue;
+      top_m = height_m;
+      highest = k;
+    }
+    if (top_m <= highest_m + kHeightTolerance_m) return std::nullopt;
+    const double x = instant_x(highest);
+    ProgramRow row{};
+    spline_tables().splines.write_double_integrals(x, row);
+    const double now = dot_program_rows(row, program_.point());
+    return at_most(row, now + (highest_m - top_m) / (t * t));
   }
 
   [[nodiscard]] std::optional<ProgramRule> broken_direction() {

@@ -56,7 +56,7 @@ class DualActiveSet {
     double min_multiplier = 0.0;
     double max_multiplier = 0.0;
     int elastic = -1;
-    double sign = 1.0;  ///< Of the row, compared with the rule as first added.
+    double sign = 1.0;  ///< -1: the row is that of the first addition, negated.
   };
   struct Direction {
     ProgramRow in_root{};          ///< d = J' row.

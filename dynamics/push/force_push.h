@@ -4,10 +4,10 @@
 
 #include <array>
 #include <optional>
-#include <vector>
 
 #include "dynamics/push/push_ends.h"
 #include "dynamics/push/push_reach.h"
+#include "dynamics/push/push_reference.h"
 
 namespace marey::dynamics {
 
@@ -17,26 +17,13 @@ inline constexpr int kForceCoefficients = 12;
 /// bounded.
 inline constexpr int kForceInstants = 64;
 
-/// The captured push of one axis, in the form from which another is derived.
-/// Preparation is done once; deriving pushes from it allocates nothing.
-struct PushReference {
-  double duration_s = 0.0;
-  /// Force per kilogram at equally spaced times from 0 to duration_s, linear in between;
-  /// at least 2. Vertical: acceleration plus gravity, not negative. [m/s^2]
-  std::vector<double> force_m_s2;
-  /// Running integrals of the force, at the same times: once and twice.
-  std::vector<double> impulse_m_s;
-  std::vector<double> double_impulse_m;
-};
-/// Computes the integrals exactly. Precondition: duration_s above 0; at least 2 forces.
-[[nodiscard]] PushReference make_push_reference(double duration_s,
-                                                std::vector<double> force_m_s2);
-
 struct ForceLimits {
   /// Largest force per kilogram, of the vertical axis. nullopt: no limit. [m/s^2]
   std::optional<double> max_force_m_s2{};
   /// Lowest height that the body can reach. nullopt: no limit. [m]
   std::optional<double> deepest_m{};
+  /// Highest height that the body can reach before the end. nullopt: no limit. [m]
+  std::optional<double> highest_m{};
   /// The body falls before its lowest point and rises after it. Captured jumps often do
   /// not. Applied at kForceInstants instants; the lowest point is at the instant at which
   /// the push without this rule is lowest.
@@ -85,15 +72,15 @@ class ForcePush {
   PushEnds ends_;
   double gravity_m_s2_ = 0.0;  ///< 0 on a horizontal axis.
   const PushReference* reference_ = nullptr;
-  double reference_scale_ = 1.0;  ///< Of the reference's force.
+  double reference_scale_ = 1.0;  ///< Factor of the reference's force.
   std::array<double, kForceCoefficients> correction_m_s2_{};
   std::array<Piece, kPieces> pieces_{};
 };
 
 /// Treatment of the reference and of the ends.
 ///
-/// A tied end whose acceleration is nullopt has no correction: the force is the scaled
-/// reference's, so the acceleration continues what comes before or after. The tie is
+/// A tied end without an acceleration has no correction: the force is the scaled
+/// reference's, and the acceleration continues that of the motion around it. The tie is
 /// elastic: where it would cost more than kTieCost, the correction at that end leaves 0
 /// gradually (an exact penalty), so a tie never makes a push impossible, and the push
 /// stays a continuous function of its ends. An end with an acceleration has the force
@@ -112,7 +99,7 @@ struct ForceEnds {
 /// problem; the law is docs/accuracy/dynamics.md's). Where the ends' moments equal the
 /// scaled reference's to 1e-12 and no limit is broken, the correction is exactly 0.
 ///
-/// nullopt: is_reachable() says no, a value is not finite, or no correction of
+/// nullopt: is_reachable() is false, a value is not finite, or no correction of
 /// kForceCoefficients coefficients obeys the limits (a narrow border inside the reachable
 /// range). Dual active set; deterministic; allocates nothing. 3 microseconds without
 /// active limits, about 20 with; the search of extremes is linear in samples.

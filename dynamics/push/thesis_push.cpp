@@ -70,22 +70,37 @@ double centre_of_column(int k, int columns) {
   return (k + 0.5) / columns;
 }
 
+/// Heights by which the rules miss each other at the centres of the columns; kNoCost: at
+/// every height one fails.
+using Narrowness = std::array<double, kScannedColumns>;
+
 /// Returns an x at which the space is not empty although it is empty at all columns: it
-/// is narrower than a column.
-std::optional<double> find_narrow_space(const UnitEnds& ends,
-                                        double widest_at,
-                                        double widest_m) {
-  constexpr double kColumn = 1.0 / kScannedColumns;
+/// is narrower than a column. Searches around the columns that miss it by the least, and
+/// by little.
+std::optional<double> find_narrow_space(const UnitEnds& ends, const Narrowness& columns) {
+  constexpr int kParts = 24;
+  constexpr double kPart = 2.0 / kScannedColumns / kParts;
   const auto narrowness = [&](double s) {
-    const auto heights = ruled_heights(ends, s);
+    const auto heights = s > 0.0 && s < 1.0 ? ruled_heights(ends, s) : std::nullopt;
     return heights ? -heights->width_m() : kNoCost;
   };
-  const CostedX best = golden_section(narrowness,
-                                      widest_at - 0.5 * kColumn,
-                                      widest_at + 0.5 * kColumn,
-                                      1e-9,
-                                      {widest_at, -widest_m});
-  return best.cost <= 0.0 ? std::optional(best.x) : std::nullopt;
+  const double little_m = 0.02 * (ends.start_force - ends.start_acceleration);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    if (columns[k] > little_m) continue;
+    const double before = k > 0 ? columns[k - 1] : kNoCost;
+    const double after = k + 1 < columns.size() ? columns[k + 1] : kNoCost;
+    if (before < columns[k] || after < columns[k]) continue;
+    const double centre = centre_of_column(static_cast<int>(k), kScannedColumns);
+    CostedX best{centre, columns[k]};
+    for (int part = 0; part < kParts; ++part) {
+      const double s = centre + (part + 0.5 - 0.5 * kParts) * kPart;
+      const double here = narrowness(s);
+      if (here < best.cost) best = {s, here};
+    }
+    best = golden_section(narrowness, best.x - kPart, best.x + kPart, 1e-6, best);
+    if (best.cost <= 0.0) return best.x;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -197,20 +212,21 @@ std::optional<ThesisPush> choose_thesis_push(const PushEnds& ends, const PushCos
       };
 
   CostedX best;
-  CostedX widest;
+  Narrowness narrowness;
+  narrowness.fill(kNoCost);
   bool is_empty = true;
   for (int k = 0; k < kScannedColumns; ++k) {
     const double s = centre_of_column(k, kScannedColumns);
     const auto heights = ruled_heights(*unit, s);
     if (!heights) continue;
-    if (-heights->width_m() < widest.cost) widest = {s, -heights->width_m()};
+    narrowness[static_cast<std::size_t>(k)] = -heights->width_m();
     if (!(heights->width_m() >= 0.0)) continue;
     is_empty = false;
     const CostedX here{s, column_cost(s, *heights, kScanTolerance_m).cost};
     if (here.cost < best.cost) best = here;
   }
-  if (is_empty && widest.cost < kNoCost) {
-    const auto narrow = find_narrow_space(*unit, widest.x, -widest.cost);
+  if (is_empty) {
+    const auto narrow = find_narrow_space(*unit, narrowness);
     if (narrow)
       best = {*narrow,
               column_cost(*narrow, *ruled_heights(*unit, *narrow), kTolerance_m).cost};

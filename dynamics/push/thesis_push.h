@@ -56,7 +56,7 @@ struct HeightInterval {
 /// Returns the heights of the lowest point at x = `lowest_at` for which the force is
 /// never negative, and the body falls before that point and rises after it (6.3.1). The
 /// polynomial is affine in the height, so the heights form one interval. Exact to 1e-9 m
-/// (bounds at 240 steps and the limits at both ends, then Newton on those that bind).
+/// (bounds at 240 steps and the limits at both ends, then Newton on the binding ones).
 /// nullopt: empty; also if the body rises at the start or sinks at the end, or if
 /// thesis_push() has no answer. Accelerations of the ends below free fall count as free
 /// fall. Some five microseconds; allocates nothing. Precondition: 0 < lowest_at < 1.
@@ -82,9 +82,10 @@ using PushCost = std::function<double(double lowest_at, double lowest_m)>;
 
 /// Returns the push with the least cost within the search space (6.3.2): scans the
 /// columns, takes the best height of each by golden section, and refines the best
-/// column, to 1e-7 in x and 1e-7 m for a cost with one minimum in each column. nullopt:
-/// the space is empty, or has no finite cost. The space is not convex, so a descent alone
-/// may stop in a local minimum. Some hundred microseconds; allocates nothing by itself.
+/// column, to 1e-7 in x and 1e-7 m for a cost with one minimum in each column. The space
+/// is not convex, so a descent alone may stop in a local minimum. nullopt: the space is
+/// empty, or has no finite cost; also, rarely, a space that is narrower in x than a
+/// column. Some hundred microseconds; allocates nothing by itself.
 [[nodiscard]] std::optional<ThesisPush> choose_thesis_push(const PushEnds& ends,
                                                            const PushCost& cost);
 

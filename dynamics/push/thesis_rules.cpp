@@ -9,8 +9,8 @@
 // Heights are affine in the height of the lowest point, so each rule at each x is one
 // linear inequality of that height. The rules are divided by the factors that both of
 // their parts share: the force by x (1 - x), the velocity by x^2 (1 - x)^2 (x - s). Then
-// they are regular where a rule touches an end or the lowest point, and what remains is a
-// sum of poles at both ends and a polynomial.
+// they are regular where a rule touches an end or the lowest point: a sum of poles at
+// both ends and a polynomial.
 
 namespace marey::dynamics {
 namespace {
@@ -33,7 +33,7 @@ struct HeightRule {
   [[nodiscard]] bool has_end_pole() const {
     return end_pole != 0.0 || end_pole_squared != 0.0;
   }
-  /// Returns true if no height meets the rule beside an end.
+  /// Returns true if no height meets the rule close to an end.
   [[nodiscard]] bool fails_at_an_end() const {
     return start_pole_squared < 0.0 || (start_pole_squared == 0.0 && start_pole < 0.0) ||
            end_pole_squared < 0.0 || (end_pole_squared == 0.0 && end_pole < 0.0);
@@ -230,7 +230,7 @@ void tighten_between(const HeightRule& rule,
                  kTable.x[i + (i < kLast ? 1 : 0)],
                  out);
   }
-  // Between a pole and the instant beside it a bound may be hidden.
+  // Between a pole and the next instant a bound may be hidden.
   const double first = kTable.x[1];
   const double last = kTable.x[kLast - 1];
   if (rule.has_start_pole()) refine_bound(rule, of_force, 0.0, first, first, out);

@@ -12,7 +12,7 @@
 
 #include "core/base/assert.h"
 #include "core/signal/smoothing_spline.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 
 namespace marey::edit {
 namespace {
@@ -112,7 +112,7 @@ ChannelFilter::ChannelFilter(const FilterOp& op,
       for (std::size_t t = at - std::min(at, reach); t < end; ++t) {
         const double away_s = std::abs(static_cast<double>(t) - impact) / rate_hz;
         raw_share_[t] =
-            std::max(raw_share_[t], 1.0 - retarget::smooth_step(away_s / kBlend_s));
+            std::max(raw_share_[t], 1.0 - smooth_step(away_s / kBlend_s));
       }
     }
   }

@@ -13,7 +13,7 @@
 
 #include "core/base/frame_range.h"
 #include "core/transform.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 
 namespace marey::edit {
 namespace {
@@ -55,7 +55,7 @@ HeldEdge edge_at(const HeldShift& shift, std::size_t at, int step, double hz) {
 glm::dvec3 faded(const HeldEdge& edge, double since, double fade, double hz) {
   const double left = 1.0 - since / fade;
   if (left <= 0.0) return glm::dvec3(0.0);
-  return edge.value * retarget::smooth_step(left) +
+  return edge.value * smooth_step(left) +
          edge.speed * (left * left * left * since / hz);
 }
 
@@ -102,7 +102,7 @@ std::vector<double> impact_shares(std::span<const int> impacts,
     for (int t = first; t <= last; ++t) {
       double& share = out[static_cast<std::size_t>(t)];
       share = std::max(
-          share, 1.0 - retarget::smooth_step(std::abs(t - impact) / (hz * kNear_s)));
+          share, 1.0 - smooth_step(std::abs(t - impact) / (hz * kNear_s)));
     }
   }
   return out;
@@ -254,7 +254,7 @@ HeldFoot held_foot(std::span<const FootPlace> before,
   for (const FrameRange& run : stood.flat) {
     for (int t = run.first; t <= run.last; ++t) {
       on_ball[static_cast<std::size_t>(t)] =
-          retarget::smooth_step((t - run.first + 1.0) / (run.last - run.first + 2.0));
+          smooth_step((t - run.first + 1.0) / (run.last - run.first + 2.0));
     }
   }
   HeldFoot out(count);

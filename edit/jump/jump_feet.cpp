@@ -8,8 +8,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/base/smooth_step.h"
 #include "core/human/contacts.h"
-#include "retarget/base/smooth_step.h"
 #include "retarget/com/foot_goals.h"
 
 namespace marey::edit {
@@ -17,8 +17,9 @@ namespace {
 
 /// A foot that bears within this time of take-off or touch-down bears until then.
 constexpr double kBearsWithin_s = 0.15;
-/// Fade of a foot's hold after take-off and before touch-down.
-constexpr double kFlightFade_s = 0.06;
+/// Beside a flight a foot is held or free, without a fade. There the body is on its
+/// captured place over the foot, so both are the same; a fade would bend straight knees.
+constexpr double kFlightFade_s = 0.0;
 /// Fade of the hold beside other stances.
 constexpr double kSwingFade_s = 0.16;
 /// Time beside a flight in which the centre of mass comes before the feet: it is on its
@@ -62,11 +63,13 @@ double hold_at(const std::vector<Stance>& stances, double time_s) {
   double hold = 0.0;
   for (const Stance& stance : stances) {
     double share = 1.0;
-    if (time_s < stance.from_s) {
-      share =
-          retarget::smooth_step(1.0 - (stance.from_s - time_s) / stance.fade_before_s);
+    if ((time_s < stance.from_s && stance.fade_before_s <= 0.0) ||
+        (time_s > stance.to_s && stance.fade_after_s <= 0.0)) {
+      share = 0.0;
+    } else if (time_s < stance.from_s) {
+      share = smooth_step(1.0 - (stance.from_s - time_s) / stance.fade_before_s);
     } else if (time_s > stance.to_s) {
-      share = retarget::smooth_step(1.0 - (time_s - stance.to_s) / stance.fade_after_s);
+      share = smooth_step(1.0 - (time_s - stance.to_s) / stance.fade_after_s);
     }
     hold = std::max(hold, share);
   }
@@ -88,22 +91,19 @@ std::array<std::vector<retarget::FootGoal>, 2> jump_feet(const EditState& state,
     const double time_s = static_cast<double>(t) / hz;
     const double push_s = takeoff_s - plan.lowest_s();
     if (time_s <= takeoff_s) {
-      heel[t] =
-          retarget::smooth_step((time_s - plan.lowest_s()) / std::max(push_s, 1.0 / hz));
+      heel[t] = smooth_step((time_s - plan.lowest_s()) / std::max(push_s, 1.0 / hz));
     } else {
       heel[t] = 1.0;
     }
     const double landing_s = plan.touchdown() ? plan.touchdown()->time_s : duration_s;
-    gives_way[t] = time_s < takeoff_s
-                       ? retarget::smooth_step((takeoff_s - time_s) / kGiveWay_s)
-                       : retarget::smooth_step((time_s - landing_s) / kGiveWay_s);
+    gives_way[t] = time_s < takeoff_s ? smooth_step((takeoff_s - time_s) / kGiveWay_s)
+                                      : smooth_step((time_s - landing_s) / kGiveWay_s);
     if (!plan.touchdown()) continue;
     const double touchdown_s = plan.touchdown()->time_s;
-    displaced[t] =
-        retarget::smooth_step((time_s - takeoff_s) / (touchdown_s - takeoff_s)) *
-        plan.landing_moved_m();
+    displaced[t] = smooth_step((time_s - takeoff_s) / (touchdown_s - takeoff_s)) *
+                   plan.landing_moved_m();
     if (time_s > touchdown_s) {
-      heel[t] = 1.0 - retarget::smooth_step((time_s - touchdown_s) / kHeelDown_s);
+      heel[t] = 1.0 - smooth_step((time_s - touchdown_s) / kHeelDown_s);
     }
   }
   std::array<std::vector<retarget::FootGoal>, 2> out;

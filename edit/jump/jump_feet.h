@@ -16,9 +16,8 @@ namespace marey::edit {
 /// captured motion at the times of the new one, with its contacts. Feet that bear keep
 /// their places: the captured ones before the flight, displaced with the landing after
 /// it. A foot that bears shortly before take-off stands until take-off, one that bears
-/// shortly after touch-down from touch-down on. In flight feet follow the body; they
-/// change between both over some hundredths of a second. While the body pushes off or
-/// lands, heels may rise. Linear in frames.
+/// shortly after touch-down from touch-down on. In flight feet follow the body. While the
+/// body pushes off or lands, heels may rise. Linear in frames.
 [[nodiscard]] std::array<std::vector<retarget::FootGoal>, 2> jump_feet(
     const EditState& state, const dynamics::JumpPlan& plan);
 

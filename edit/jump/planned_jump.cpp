@@ -52,10 +52,13 @@ Result<FoundJumps> find_state_jumps(const JumpOp& op,
                                     const EditState& state) {
   const auto span = resolve_span(state, context.op.span);
   if (!span) return span.error();
-  auto masses = retarget::place_masses(state.motion.skeleton, state.map, {});
-  if (!masses) return masses.error();
   FoundJumps out;
-  out.masses = std::move(*masses);
+  out.masses = context.inputs.masses;
+  if (out.masses.empty()) {
+    auto masses = retarget::place_masses(state.motion.skeleton, state.map, {});
+    if (!masses) return masses.error();
+    out.masses = std::move(*masses);
+  }
   out.track = retarget::body_track(state.motion, state.map, out.masses);
   dynamics::FindJumpsOptions options = find_options(op, state);
   if (op.push_start) {
@@ -80,7 +83,7 @@ Result<FoundJumps> find_state_jumps(const JumpOp& op,
     const std::string count = std::to_string(out.jumps.size());
     return bad_input(
         "jump",
-        "is " + std::to_string(op.jump) + ", but there " +
+        "jump " + std::to_string(op.jump) + " does not exist, there " +
             (out.jumps.size() == 1 ? "is 1 jump" : "are " + count + " jumps"),
         out.jumps.size() == 1 ? "choose 1" : "choose 1 to " + count);
   }

@@ -84,6 +84,18 @@ void report_jump_body(const retarget::FollowComReport& body,
   report.figures.emplace_back("slide_mm", kJumpToMm * body.worst_foot_m);
   report.figures.emplace_back("raised_heel_mm", kJumpToMm * body.raised_heel_m);
   report.figures.emplace_back("short_leg_mm", kJumpToMm * body.short_leg_m);
+  if (body.worst_foot_m > kShownShortLeg_m) {
+    report.findings.push_back(
+        fair_finding("foot",
+                     "feet",
+                     "a foot leaves its place by up to " +
+                         format_text("%.0f mm", kJumpToMm * body.worst_foot_m) +
+                         ", the most at " +
+                         format_text("%.2f s", body.worst_foot_frame / rate.hz) +
+                         ", since the legs are too short there",
+                     "choose a smaller change, or another push_s")
+            .measured(kJumpToMm * body.worst_foot_m, std::nullopt, "mm"));
+  }
   if (body.short_leg_m < kShownShortLeg_m) return;
   report.findings.push_back(
       fair_finding("short_leg",

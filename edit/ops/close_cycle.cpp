@@ -18,7 +18,7 @@
 #include "core/base/assert.h"
 #include "core/base/frame_range.h"
 #include "core/pose.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 
 namespace marey::edit {
 namespace {
@@ -161,7 +161,7 @@ std::vector<double> foot_shares(const Contacts& contacts, std::size_t side) {
         const double next = 0.5 * (runs[k + 1].first + runs[k + 1].last);
         const double share =
             static_cast<double>(n - run.last) / (runs[k + 1].first - run.last);
-        at += (next - middle) * retarget::smooth_step(share);
+        at += (next - middle) * smooth_step(share);
       }
       out[static_cast<std::size_t>(of_three)] = at - frames;
     }

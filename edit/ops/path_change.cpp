@@ -14,7 +14,7 @@
 
 #include "core/base/assert.h"
 #include "core/base/format_text.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 
 namespace marey::edit {
 namespace {
@@ -42,8 +42,8 @@ ChangeProfile profile_of(const TravelPath& old, const FrameRange& span) {
     const double step = old.way_m[t + 1] - old.way_m[t];
     const double share = (old.way_m[t] + 0.5 * step - start) / out.way_m;
     double strength = 1.0;
-    if (span.first > 0) strength *= retarget::smooth_step(share / kFade);
-    if (span.last < last_frame) strength *= retarget::smooth_step((1.0 - share) / kFade);
+    if (span.first > 0) strength *= smooth_step(share / kFade);
+    if (span.last < last_frame) strength *= smooth_step((1.0 - share) / kFade);
     out.strength.push_back(strength);
     sum += strength * step;
   }
@@ -259,7 +259,7 @@ void fill_swing(const MovedStance& a,
     const double until = b.first - frame;
     double& instant = out[static_cast<std::size_t>(frame)];
     if (gap <= 2.0 * fade_frames) {
-      instant = a.instant + (b.instant - a.instant) * retarget::smooth_step(since / gap);
+      instant = a.instant + (b.instant - a.instant) * smooth_step(since / gap);
     } else if (since < fade_frames) {
       instant =
           a.instant +

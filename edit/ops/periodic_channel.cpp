@@ -9,7 +9,7 @@
 
 #include "core/base/assert.h"
 #include "core/transform.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 
 namespace marey::edit {
 namespace {
@@ -95,7 +95,7 @@ class PeriodicChannel {
     const int width = static_cast<int>(difference.size());
     for (int k = 1; k <= width; ++k) {
       const double share = width > 1 ? (k - 1.0) / (width - 1.0) : 0.0;
-      const glm::dvec3 half = 0.5 * (1.0 - retarget::smooth_step(share)) *
+      const glm::dvec3 half = 0.5 * (1.0 - smooth_step(share)) *
                               difference[static_cast<std::size_t>(k - 1)];
       const int at = sign * k;
       if (cycle_.before + at >= 0) first(at) = displaced_by(first(at), half);

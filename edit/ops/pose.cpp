@@ -12,7 +12,7 @@
 #include "edit/state/resolve_moment.h"
 
 #include "core/base/format_text.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 
 namespace marey::edit {
 namespace {
@@ -24,7 +24,7 @@ OpWeights bell_weights(int frame_count, double at_frame, double width_frames) {
   out.frames = {0, -1};
   for (int frame = 0; frame < frame_count; ++frame) {
     const double away = std::abs(frame - at_frame) / width_frames;
-    const double weight = away < 1.0 ? retarget::smooth_step(1.0 - away) : 0.0;
+    const double weight = away < 1.0 ? smooth_step(1.0 - away) : 0.0;
     out.weight[static_cast<std::size_t>(frame)] = weight;
     if (weight <= 0.0) continue;
     if (out.frames.last < out.frames.first) out.frames.first = frame;

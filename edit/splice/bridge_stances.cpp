@@ -14,7 +14,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/transform.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 
 namespace marey::edit {
 namespace {
@@ -160,7 +160,7 @@ void bridge_gap(const OverlapFeet& feet,
             : moves.second.moved(feet.second[static_cast<std::size_t>(t - frames.start)]);
     const FootPlace& at_join = is_first ? a : b;
     const double share =
-        1.0 - retarget::smooth_step(std::abs(t - frames.join) / fade_frames);
+        1.0 - smooth_step(std::abs(t - frames.join) / fade_frames);
     const auto tilt = [&](const glm::dquat& from, const glm::dquat& to) {
       return rotation_from_vector(share * rotation_vector(to * glm::conjugate(from)));
     };

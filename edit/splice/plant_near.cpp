@@ -15,7 +15,7 @@
 
 #include "core/base/assert.h"
 #include "core/transform.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/contacts/frame_marks.h"
 #include "retarget/feet/adapt_to_ground.h"
 #include "retarget/feet/footprint.h"
@@ -137,7 +137,7 @@ struct PlantedWay {
       const int frame = edge + k * step;
       if (frame < 0 || frame >= static_cast<int>(before.size())) return;
       const auto t = static_cast<std::size_t>(frame);
-      const double keep = 1.0 - retarget::smooth_step(static_cast<double>(k) / length);
+      const double keep = 1.0 - smooth_step(static_cast<double>(k) / length);
       const double x = std::min(1.0, k / rate_length);
       const double x3 = x * x * x;
       const double go = rate_length * (x - 6.0 * x3 + 8.0 * x3 * x - 3.0 * x3 * x * x);
@@ -227,7 +227,7 @@ void hold_displacement(const std::vector<FootPlace>& before,
   const FootOffset held = offset_of(before[at(end)], planned[at(end)]);
   for (int t = start; t >= run.first && t <= run.last; t += step) {
     const double share =
-        retarget::smooth_step(static_cast<double>(std::abs(t - start)) / fade);
+        smooth_step(static_cast<double>(std::abs(t - start)) / fade);
     const FootOffset own = offset_of(before[at(t)], planned[at(t)]);
     planned[at(t)] = displaced_place(before[at(t)], mixed_offset(own, held, share));
   }

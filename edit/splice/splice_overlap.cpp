@@ -11,7 +11,7 @@
 #include <glm/common.hpp>
 
 #include "core/base/assert.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 
 namespace marey::edit {
 namespace {
@@ -91,7 +91,7 @@ std::vector<std::array<double, 2>> paired_edges(const EditState& first,
 }
 
 double splice_weight(double at, int length) {
-  return retarget::smooth_step(at / length);
+  return smooth_step(at / length);
 }
 
 // Value of a quintic between two knots with second derivatives 0. `slope` is per span. It

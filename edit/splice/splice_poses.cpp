@@ -16,7 +16,7 @@
 #include "core/base/assert.h"
 #include "core/pose.h"
 #include "core/transform.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/contacts/frame_marks.h"
 #include "retarget/contacts/support_frame.h"
 
@@ -80,7 +80,7 @@ struct Decay {
     const double x = std::min(1.0, frame / rate_length);
     const double x3 = x * x * x;
     const double go = x - 6.0 * x3 + 8.0 * x3 * x - 3.0 * x3 * x * x;
-    const double share = 1.0 - retarget::smooth_step(static_cast<double>(frame) / length);
+    const double share = 1.0 - smooth_step(static_cast<double>(frame) / length);
     return share * value + go * rate_length * rate;
   }
 };

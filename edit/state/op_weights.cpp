@@ -11,7 +11,7 @@
 
 #include "core/base/assert.h"
 #include "core/humanoid.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 
 namespace marey::edit {
 namespace {
@@ -85,7 +85,7 @@ Result<OpWeights> op_weights(const Timeline& timeline, const EditOp& op) {
         std::max({0.0, span->first - frame, static_cast<double>(frame) - span->last});
     double weight = outside <= 1e-9 ? 1.0 : 0.0;
     if (weight == 0.0 && fade_frames > 0.0) {
-      weight = retarget::smooth_step(1.0 - outside / fade_frames);
+      weight = smooth_step(1.0 - outside / fade_frames);
     }
     out.weight[static_cast<std::size_t>(frame)] = weight;
     if (weight <= 0.0) continue;

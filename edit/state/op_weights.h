@@ -17,7 +17,7 @@
 namespace marey::edit {
 
 /// Effect of an operation on each frame: 1 in its span, 0 beyond the fades before and
-/// after, with continuous speed and acceleration between (retarget/base/smooth_step.h).
+/// after, with continuous speed and acceleration between (core/base/smooth_step.h).
 struct OpWeights {
   std::vector<double> weight;  ///< One per frame.
   FrameRange frames;           ///< Frames with a weight above 0.

@@ -15,7 +15,7 @@
 
 #include "core/base/assert.h"
 #include "core/pose.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/body/normalized_skeleton.h"
 #include "retarget/com/foot_goals.h"
 #include "retarget/contacts/frame_marks.h"
@@ -210,7 +210,7 @@ void soften_swings(std::span<const double> sink_m,
       const double planned = glm::length(reach) / leg.length_m();
       if (planned <= kFreeExtension) continue;
       const double own = glm::distance(hip, ankle) / leg.length_m();
-      const double share = retarget::smooth_step(away[t] / ramp);
+      const double share = smooth_step(away[t] / ramp);
       const double wanted = planned + share * (soft_extension(planned, own) - planned);
       place.ankle_in_world = settled_hip + (wanted / planned) * reach;
     }

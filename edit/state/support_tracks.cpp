@@ -14,7 +14,7 @@
 
 #include "core/pose.h"
 #include "core/transform.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/constraints/activation.h"
 #include "retarget/constraints/measure_constraint.h"
 
@@ -92,7 +92,7 @@ std::vector<glm::dquat> added_turns(const std::vector<PlacedSupport>& supports,
         break;
       }
       const double share =
-          retarget::smooth_step(1.0 - std::abs(frame - edge) / fade_frames);
+          smooth_step(1.0 - std::abs(frame - edge) / fade_frames);
       if (share > 0.0) turn = rotation_from_vector(share * support.turn_at(edge)) * turn;
     }
   }

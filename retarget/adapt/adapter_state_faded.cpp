@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "retarget/adapt/adapter_state.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/constraints/activation.h"
 
 /// Computes postures while constraints fade in or out, or while one control fades to the

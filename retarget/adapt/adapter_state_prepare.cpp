@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "retarget/adapt/adapter_state.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/constraints/activation.h"
 
 namespace marey::retarget {

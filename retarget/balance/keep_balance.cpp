@@ -11,7 +11,7 @@
 #include "core/base/assert.h"
 #include "core/human/centre_of_mass.h"
 #include "core/pose.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/base/triweight.h"
 
 namespace marey::retarget {

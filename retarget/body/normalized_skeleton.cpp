@@ -9,7 +9,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "core/base/assert.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/body/place_spine.h"
 #include "retarget/body/rotation_from_t_pose.h"
 

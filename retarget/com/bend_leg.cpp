@@ -7,8 +7,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/base/smooth_step.h"
 #include "core/transform.h"
-#include "retarget/base/smooth_step.h"
 
 namespace marey::retarget {
 namespace {

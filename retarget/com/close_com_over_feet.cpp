@@ -10,6 +10,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/smooth_step.h"
 #include "core/human/centre_of_mass.h"
 
 namespace marey::retarget {
@@ -20,6 +21,8 @@ constexpr double kClosed_m = 1e-9;
 constexpr double kStill_m = 1e-10;
 constexpr int kMaxEvaluations = 24;
 constexpr int kMaxGiveWays = 8;
+// Hold from which on the root begins to give way to a leg that is too short.
+constexpr double kGivesWayFrom = 0.7;
 // Largest step of the root, in legs: the derivative is only local.
 constexpr double kMaxStepInLegs = 0.3;
 
@@ -91,10 +94,12 @@ void ComCloser::start_frame(const Pose& reference, const std::array<FootGoal, 2>
   }
 }
 
-// Evaluates the posture for a displacement of the root. Where a leg is too short, the
-// root gives way along the leg by the share that the foot is held.
+// Evaluates the posture for a displacement of the root. Where the leg of a held foot is
+// too short, the root gives way along the leg. Where the foot is held in part, the foot
+// gives way, by the rest of the share.
 void ComCloser::try_at(glm::dvec3& moved_m, Try& out) const {
   const glm::dvec3 wanted_m = moved_m;
+  std::array<double, 2> kept_short_m{};
   out.short_leg_m = 0.0;
   for (int k = 0; k < kMaxGiveWays; ++k) {
     double largest_m = 0.0;
@@ -102,9 +107,17 @@ void ComCloser::try_at(glm::dvec3& moved_m, Try& out) const {
       if (legs_[side].hold() <= 0.0) continue;
       out.ankles[side] = legs_[side].ankle_over_foot(moved_m);
       const AnkleOverFoot& ankle = out.ankles[side];
-      if (ankle.short_m == 0.0) continue;
-      const double give_m = legs_[side].gives_way() * ankle.short_m;
-      if (k == 0) out.short_leg_m = std::max(out.short_leg_m, give_m);
+      const double hold = legs_[side].hold();
+      const double share = legs_[side].root_gives_way() *
+                           smooth_step((hold - kGivesWayFrom) / (1.0 - kGivesWayFrom));
+      if (ankle.short_m == 0.0 || share <= 0.0) continue;
+      if (k == 0) {
+        kept_short_m[side] = (1.0 - share) * ankle.short_m;
+        out.short_leg_m = std::max(out.short_leg_m, share * ankle.short_m);
+      }
+      double give_m = ankle.short_m - kept_short_m[side];
+      if (give_m * ankle.short_m <= 0.0) continue;
+      give_m /= hold;
       largest_m = std::max(largest_m, std::abs(give_m));
       moved_m += give_m * glm::normalize(ankle.ankle_from_hip);
     }
@@ -150,14 +163,13 @@ glm::dvec3 ComCloser::find_root(const glm::dvec3& com_in_world,
     try_at(moved_m, last);
     ++evaluations;
     const glm::dvec3 step = moved_m - from_m;
-    const double before_m = glm::length(missing_m);
     missing_m = com_in_world - last.com_in_world;
-    if (last.gave_way_m > 0.0 && glm::length(step) < kStill_m) break;
-    if (!was_free || last.gave_way_m > 0.0 || glm::length(missing_m) > before_m) {
-      root_from_com = glm::dmat3(first_guess);
+    if (was_free && last.gave_way_m == 0.0) {
+      update_inverse(step, last.com_in_world - com_from_m, root_from_com);
       continue;
     }
-    update_inverse(step, last.com_in_world - com_from_m, root_from_com);
+    if (glm::length(step) < kStill_m) break;
+    root_from_com = glm::dmat3(first_guess);
   }
   return moved_m;
 }

@@ -10,7 +10,7 @@
 
 #include "core/pose.h"
 #include "core/transform.h"
-#include "retarget/com/follow_com.h"
+#include "retarget/com/com_plan.h"
 #include "retarget/com/leg_over_foot.h"
 
 namespace marey::retarget {

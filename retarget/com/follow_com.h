@@ -2,47 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <span>
-#include <vector>
 
-#include <glm/vec3.hpp>
-
-#include "core/base/time.h"
-#include "core/character.h"
 #include "core/pose.h"
-#include "core/skeleton.h"
-#include "retarget/body/body_map.h"
-#include "retarget/feet/foot_place.h"
+#include "retarget/com/com_plan.h"
 
 namespace marey::retarget {
-
-/// Wanted place of one foot in one frame.
-struct FootGoal {
-  FootPlace place;    ///< T-pose-relative, as foot_places() of edit gives it.
-  double hold = 0.0;  ///< 1: the foot is there. 0: it follows the body. Between: a fade.
-  /// Share by which the heel may rise about the ball where the leg is too short: 1 while
-  /// the foot pushes off.
-  double heel_may_rise = 0.0;
-  /// Share by which the root gives way where the leg is too short: 1 while the foot
-  /// bears. 0: the centre of mass stays on its target, and the foot leaves its place.
-  double root_gives_way = 1.0;
-};
-
-/// A body whose centre of mass follows a plan.
-struct ComFollower {
-  const Skeleton& skeleton;
-  const BodyMap& map;
-  std::span<const PointMass> masses;
-  FrameRate rate;
-};
-
-/// Plan per frame; all spans have the same length.
-struct ComPlan {
-  std::span<const Pose> reference;                ///< Postures to follow.
-  std::span<const glm::dvec3> com_in_world;       ///< Targets. [m]
-  std::array<std::span<const FootGoal>, 2> feet;  ///< Left, right.
-};
 
 struct FollowComReport {
   double worst_com_m = 0.0;  ///< Largest distance of the centre of mass from its target.
@@ -61,14 +26,25 @@ struct FollowComReport {
 /// Moves the root of each reference posture so that the centre of mass is at its target
 /// with the held feet at their places; legs follow analytically. Trunk, head and arms
 /// keep their rotations, so most of a displacement bends nothing. Without a held foot the
-/// result is exact (the whole body is displaced). With held feet: Newton steps on the
-/// root's position until 1e-6 m. Where a leg is too short the heel rises about the ball
-/// as far as `heel_may_rise` permits; what remains is reported. Displacements that this
-/// adds between frames are smoothed (displacement map), so that jerk stays near the
-/// reference's.
+/// whole body is displaced, and the result is exact to rounding. With held feet: secant
+/// steps on the root's position until 1e-9 m; reference legs that are exactly straight
+/// may leave 1e-6 m. Each frame depends on its own entries only, and small changes of the
+/// plan change the posture little.
 ///
-/// `out` has one pose per frame. A frame whose target and places are the reference's own
-/// keeps its pose to the bit. Allocates nothing per frame; some microseconds per frame.
+/// A leg reaches up to 0.995 of its length, or as far as in the reference if that is
+/// more. Before that the heel rises about the ball (without toe joints: about the sole's
+/// front end) as far as `heel_may_rise` permits, gradually, while the toes stay flat.
+/// The remaining error is reported, and the centre of mass stays as near to its target as
+/// the legs permit. A partly held foot is between its place and the place that it has on
+/// the displaced body; where it is too far it gives way instead of the root (from a hold
+/// of 0.7 on they share).
+///
+/// `out` has one pose per frame and may be the reference's own poses. A frame whose
+/// target and places are the reference's own (within 1e-12) keeps its pose to the bit.
+/// Allocates nothing per frame if the poses of `out` have the number of joints already.
+/// Costs two forward kinematics and about five evaluations of the legs per frame
+/// (docs/accuracy/dynamics.md). Precondition: spans of the same length; `map` was made
+/// from `skeleton`; the masses' sum is positive; unit rotations.
 FollowComReport follow_com(const ComFollower& body,
                            const ComPlan& plan,
                            std::span<Pose> out);

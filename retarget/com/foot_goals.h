@@ -9,7 +9,7 @@
 
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
-#include "retarget/com/follow_com.h"
+#include "retarget/com/com_plan.h"
 #include "retarget/feet/foot_place.h"
 
 namespace marey::retarget {

@@ -15,7 +15,7 @@
 #include "core/transform.h"
 #include "retarget/body/body_map.h"
 #include "retarget/com/bend_leg.h"
-#include "retarget/com/follow_com.h"
+#include "retarget/com/com_plan.h"
 #include "retarget/com/raise_heel.h"
 
 namespace marey::retarget {
@@ -61,8 +61,8 @@ class StandingLeg {
                    const FootGoal& goal);
 
   [[nodiscard]] double hold() const { return hold_; }
-  /// Share of a missing length by which the root gives way.
-  [[nodiscard]] double gives_way() const { return hold_ * root_gives_way_; }
+  /// As FootGoal::root_gives_way.
+  [[nodiscard]] double root_gives_way() const { return root_gives_way_; }
   /// True if the wanted place is the reference's own.
   [[nodiscard]] bool is_at_goal() const { return is_at_goal_; }
   [[nodiscard]] double length_m() const { return bones_.length_m; }

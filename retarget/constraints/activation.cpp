@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 
 namespace marey::retarget {
 namespace {

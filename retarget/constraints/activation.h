@@ -12,7 +12,7 @@ namespace marey::retarget {
 /// Returns the activation of a constraint at `time_s`, from 0 to 1 (Kulpa 2005, 3.1.1.5,
 /// figure 3.8).
 ///
-/// The product of two quintic ramps (retarget/base/smooth_step.h), one up from the start
+/// The product of two quintic ramps (core/base/smooth_step.h), one up from the start
 /// and one down from the stop. The product of C2 functions is C2, so that a constraint
 /// that stops before it is fully active reverses smoothly below 1. (The minimum of the
 /// ramps would have a kink there.) Where the ramps do not overlap it equals the figure.

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/frame_range.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/body/rotation_from_t_pose.h"
 
 namespace marey::retarget {

@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 
 namespace marey::retarget {
 namespace {

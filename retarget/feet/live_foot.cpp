@@ -9,7 +9,7 @@
 #include <glm/vec2.hpp>
 
 #include "core/transform.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/feet/leg_placement.h"
 
 namespace marey::retarget {

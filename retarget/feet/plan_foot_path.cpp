@@ -11,7 +11,7 @@
 #include "core/base/assert.h"
 #include "core/base/frame_range.h"
 #include "core/transform.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/contacts/frame_marks.h"
 #include "retarget/feet/footprint.h"
 #include "retarget/feet/leg_placement.h"

@@ -10,7 +10,7 @@
 
 #include "core/base/assert.h"
 #include "core/pose.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/feet/leg_placement.h"
 
 namespace marey::retarget {

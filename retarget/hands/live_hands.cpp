@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/transform.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/body/rotation_from_t_pose.h"
 #include "retarget/hands/arm_clearance.h"
 

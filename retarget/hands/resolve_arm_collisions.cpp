@@ -15,7 +15,7 @@
 #include "core/base/assert.h"
 #include "core/transform.h"
 #include "retarget/base/smooth_cover.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/body/rotation_from_t_pose.h"
 #include "retarget/hands/arm_clearance.h"
 

@@ -8,7 +8,7 @@
 
 #include "core/human/average_proportions.h"
 #include "core/pose.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/body/anthropometry.h"
 
 namespace marey::retarget {

@@ -10,7 +10,7 @@
 
 #include "core/human/average_proportions.h"
 #include "core/pose.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/body/normalized_skeleton.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/bodies/random_bodies.h"

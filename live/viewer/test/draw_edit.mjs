@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// node test/draw_edit.mjs MOTION.npz FOLDER: draws the pictures of docs/editing.md with the page
-// of `marey edit`: edit-loop.png, edit-ghost.png, edit-hand.png and edit-trim.png. MAREY_PROGRAM
-// is marey. The pictures in docs/images show the walk of the sample session (./run demo).
+// node test/draw_edit.mjs MOTION.npz FOLDER [JUMP.npz]: draws the pictures of docs/editing.md with
+// the page of `marey edit`: edit-loop.png, edit-ghost.png, edit-hand.png and edit-trim.png, and
+// edit-jump.png of a motion with a jump. MAREY_PROGRAM is marey; MAREY_WEB_ROOT is the folder
+// served/ of a page, otherwise the one that marey has. The pictures in docs/images show the walk
+// of the sample session (./run demo).
 
 import {copyFileSync, mkdtempSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
@@ -11,10 +13,10 @@ import {join} from 'node:path';
 import {missing, openBrowser, openPage} from './browser.mjs';
 import {end_all, handle_at, serve, until} from './marey_process.mjs';
 
-const [motion, out] = process.argv.slice(2);
+const [motion, out, jump] = process.argv.slice(2);
 const why = missing({built: false});
 if (why || !motion || !out || !process.env.MAREY_PROGRAM) {
-  console.error(why ?? 'usage: MAREY_PROGRAM=... node test/draw_edit.mjs MOTION.npz FOLDER');
+  console.error(why ?? 'usage: MAREY_PROGRAM=... node test/draw_edit.mjs MOTION.npz FOLDER [JUMP.npz]');
   process.exit(1);
 }
 
@@ -50,11 +52,13 @@ const fold = (page, ...names) => page.evaluate((list) => {
 }, names);
 
 /** The page of a copy of the motion. */
-async function open(browser, name, height) {
+async function open(browser, name, height, source = motion, width = 1100) {
   const file = join(folder, `${name}.npz`);
-  copyFileSync(motion, file);
-  const {address} = await serve('edit', file, '--page');
-  const {page} = await openPage(browser, address, {viewport: {width: 1100, height},
+  copyFileSync(source, file);
+  const {MAREY_WEB_ROOT} = process.env;
+  const {address} = await serve('edit', file, '--page',
+    ...(MAREY_WEB_ROOT ? ['--web-root', MAREY_WEB_ROOT] : []));
+  const {page} = await openPage(browser, address, {viewport: {width, height},
     colorScheme: 'light', deviceScaleFactor: 1});
   await shown(page, 0);
   // Spheres of the uncertainties hide the feet.
@@ -127,10 +131,31 @@ async function drawTrim(browser) {
   await page.mouse.up();
 }
 
+/** A higher jump of the thesis law: curves, and the lowest point in its search space. */
+async function drawJump(browser) {
+  const page = await open(browser, 'jump', 960, jump, 1200);
+  await fold(page, 'ops', 'result', 'joints', 'path', 'loops', 'view');
+  await commit(page, {do: 'jump@1', apex_by_m: 0.1, law: 'thesis'});
+  await page.locator('.section-jump > summary').click();
+  await page.waitForFunction(() => window.mareyPage.jump.words?.phases &&
+    window.mareyPage.jump.space.width > 0);
+  await page.locator('.section-jump').evaluate((part) => part.scrollIntoView());
+  await page.evaluate(() => {
+    const {mareyPage} = window;
+    mareyPage.stopAt(Math.round(mareyPage.jump.words.phases.apex_s * mareyPage.output.rate_hz));
+  });
+  await drawn(page);
+  await page.keyboard.press('2');
+  await page.keyboard.press('f');
+  await drawn(page);
+  await page.screenshot({path: join(out, 'edit-jump.png')});
+}
+
 const folder = mkdtempSync(join(tmpdir(), 'marey-draw-'));
 const browser = await openBrowser();
 try {
   for (const draw of [drawLoop, drawGhost, drawHand, drawTrim]) await draw(browser);
+  if (jump) await drawJump(browser);
 } finally {
   await end_all();
   await browser.close();

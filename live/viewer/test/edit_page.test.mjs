@@ -141,6 +141,21 @@ test('a preview shows a change in the scene without making it', async () => {
   await close();
 });
 
+test('the panel states why a motion has no jump, and the recipe stays', async () => {
+  const {address, marey} = await serve('edit', recipe, '--page');
+  const {page, troubles, close} = await openPage(browser, address);
+  await shown(page);
+  const was = await state(page);
+  await page.evaluate(() => { document.querySelector('.section-jump').open = true; });
+  await page.getByRole('button', {name: 'Find jumps'}).click();
+  await until('the reason', async () =>
+    /bears the body/.test(await page.locator('.section-jump').innerText()));
+  assert.equal((await state(page)).revision, was.revision);
+  assert.deepEqual(troubles, []);
+  await end(marey);
+  await close();
+});
+
 test('exported files have the bytes of the command line', async () => {
   const [by_page, by_command] = [join(folder, 'page'), join(folder, 'command')];
   const {address, marey} = await serve('edit', recipe, '--page', '--out', by_page);

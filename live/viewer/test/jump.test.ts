@@ -8,11 +8,12 @@ import test from 'node:test';
 import {rangeWithMargin} from '../src/edit_scene/jump_curves';
 import {
   clampToSpace, fallsUnusually, heightsAt, islandsOf, jumpWords, lowestChange, lowestWords,
-  peakOf, showsTimesAfter, shownJump,
+  peakOf, planWords, showsTimesAfter,
+  shownJump,
 } from '../src/edit_scene/jump_search';
 import type {FoundJumpWords, OpKeys, OpWords, SpaceColumnWords} from
   '../src/protocol/edit_protocol';
-import {columnAt, madeSpace, thesisPush} from './made_jump';
+import {columnAt, madeJump, madeSpace, thesisPush} from './made_jump';
 
 const op = (keys: OpKeys, off = false): OpWords =>
   ({do: keys.do, off, text: JSON.stringify(keys), keys});
@@ -123,8 +124,14 @@ test('a jump in words; a fall far from gravity is unusual', () => {
   assert.ok(!fallsUnusually({...found, fall_m_s2: -9.5}));
   assert.ok(!fallsUnusually({...found, fall_m_s2: 0}), 'unknown');
   assert.ok(!fallsUnusually(found, 12));
-  assert.equal(peakOf({push_g: [null, 1, 2.5, null, 0]}), 2.5);
-  assert.equal(peakOf({push_g: []}), null);
+  const curve = {time_s: [0, 1, 2, 3, 4], push_g: [null, 1, 2.5, null, 3]};
+  assert.equal(peakOf(curve, 0, 3), 2.5);
+  assert.equal(peakOf(curve, 3, 4), 3);
+  assert.equal(peakOf(curve, 5, 6), null);
+  const made = madeJump('1', 0, {do: 'jump@1', apex_by_m: 0.1});
+  assert.match(planWords(made),
+    /^Push 0\.70.s with up to 2\.\d.g, 0\.5\d.s in the air, landing 0\.50.s with up to 2\.\d.g\.$/);
+  assert.equal(planWords({...made, phases: null}), '');
   assert.deepEqual(rangeWithMargin([null, 1, 2], 0.1), [0.9, 2.1]);
   assert.deepEqual(rangeWithMargin([null]), [0, 1]);
 });

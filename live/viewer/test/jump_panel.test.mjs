@@ -66,7 +66,7 @@ const colourAt = (selector, x, y) => page.evaluate(([name, px, py]) => {
 
 test('jumps are listed without an operation; one is chosen and changed', async () => {
   await load([{do: 'filter@1'}]);
-  assert.deepEqual(await calls(), [], 'nothing is asked before the user does');
+  assert.deepEqual(await calls(), [], 'no question is sent before the click');
   await page.getByRole('button', {name: 'Find jumps'}).click();
   await shown();
   assert.deepEqual(await calls(), [['jump', {op: 1, output: 0,

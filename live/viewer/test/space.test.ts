@@ -5,7 +5,9 @@
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {carries} from '../src/scene/balance_view';
+import type {BufferGeometry, Mesh, MeshBasicMaterial} from 'three';
+import type {Theme} from '../src/base/theme';
+import {BalanceView, carries} from '../src/scene/balance_view';
 import {boneMatrix, flatten} from '../src/scene/bone_shapes';
 import {SkeletonFrame} from '../src/protocol/decode_frame';
 import {dragInPlane, dragVertically} from '../src/scene/drag_plane';
@@ -177,6 +179,38 @@ test('a polygon supports points above it in either order of its corners', () => 
     assert.ok(!carries(corners, 4, 1.1, 0.5));
   }
   assert.ok(!carries(square, 2, 0.5, 0));
+});
+
+test('the zero moment point is a ring on the floor: red outside of the polygon, none in flight', () => {
+  const view = new BalanceView([10, 0, 0]);
+  view.paint({colour: (name: string) => (name === 'good' ? 'rgb(0, 255, 0)' : 'rgb(255, 0, 0)')} as
+    unknown as Theme);
+  const rings = view.object.children.filter((part) =>
+    ['RingGeometry', 'CircleGeometry'].includes((part as Mesh).geometry.type)) as
+    Mesh<BufferGeometry, MeshBasicMaterial>[];
+  assert.equal(rings.length, 2);
+  const frame = new SkeletonFrame(1);
+  frame.support_xz.set([0, 0, 1, 0, 1, 1, 0, 1]);
+  frame.corners = 4;
+  frame.centre_of_mass_in_world.set([0.5, 1, 0.5]);
+  const shownAt = (x: number, z: number): [number, number] => {
+    frame.hasZmp = true;
+    frame.zmp_xz.set([x, z]);
+    view.update(frame, 0.25);
+    for (const {visible, position} of rings) {
+      assert.ok(visible);
+      close([position.x, position.z], [x + 10, z], 1e-6);
+      assert.ok(position.y > 0.25 && position.y < 0.27);
+    }
+    const {r, g} = rings[0].material.color;
+    return [r, g];
+  };
+  assert.deepEqual(shownAt(0.5, 0.75), [0, 1]);
+  assert.deepEqual(shownAt(0.5, 1.25), [1, 0]);
+  frame.hasZmp = false;
+  view.update(frame, 0.25);
+  assert.ok(rings.every(({visible}) => !visible));
+  view.dispose();
 });
 
 test('a camera sees points in front of it, not behind', () => {

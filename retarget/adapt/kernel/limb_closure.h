@@ -8,7 +8,7 @@
 namespace marey::retarget {
 
 /// Returns 10 x^3 - 15 x^4 + 6 x^5 over 0..1, constant outside
-/// (retarget/base/smooth_step.h).
+/// (core/base/smooth_step.h).
 template <class F>
 [[nodiscard]] inline F smooth(const F& share) {
   const F x = clamp(share, num<F>(0), num<F>(1));

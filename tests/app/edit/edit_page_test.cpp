@@ -222,6 +222,36 @@ TEST(EditPage, AnswersPreviewsExportsAndLoops) {
   EXPECT_EQ(browser.newest.at("revision").at("revision"), 1);
 }
 
+TEST(EditPage, StatesWhyAMotionHasNoCurvesOfAJump) {
+  ServedEdit served;
+  Browser browser(served);
+  (void)browser.rendered(1);
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {R"({"type":"jump","id":"j","base_revision":1,"op":0,
+           "ops_patch":[{"insert":0,"op":{"do":"jump@1"}}]})",
+       "bears the body"},
+      {R"({"type":"jump","id":"j","base_revision":1,"op":0})",
+       "operation 1 is not a jump"},
+      {R"({"type":"jump","id":"j","base_revision":1,"op":0,
+           "ops_patch":[{"insert":0,"op":{"do":"mirror@1"}}]})",
+       "operation 1 is not a jump"},
+      {R"({"type":"jump","id":"j","base_revision":1,"op":0,"output":1,
+           "ops_patch":[{"insert":0,"op":{"do":"jump@1"}}]})",
+       "no such result"},
+      {R"({"type":"jump","id":"j","base_revision":1,"op":0,
+           "ops_patch":[{"insert":0,"op":{"do":"jump@1","apex":1}}]})",
+       "apex"}};
+  for (const auto& [message, reason] : cases) {
+    browser.send(message);
+    const Json error = browser.until("error");
+    EXPECT_EQ(error.at("id"), "j");
+    EXPECT_EQ(error.at("about"), "jump");
+    const std::string text = error.at("text");
+    EXPECT_NE(text.find(reason), std::string::npos) << message << "\n" << text;
+  }
+  EXPECT_EQ(served.session->revision().number, 1);
+}
+
 TEST(EditPage, RefusesBadMessagesAndStays) {
   ServedEdit served;
   Browser browser(served);

@@ -3,7 +3,6 @@
 //
 // `marey jump` on a captured jump, judged by the centre of mass of the written motion.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -13,6 +12,8 @@
 
 #include "recordings/base/atomic_file.h"
 #include "tests/app/jump/jump_scene.h"
+#include "tests/support/program/paths.h"
+#include "tests/support/program/run_program.h"
 
 namespace marey::testing {
 namespace {
@@ -111,6 +112,57 @@ TEST(JumpClip, BecomesAParabolaWithoutAnotherWish) {
     EXPECT_NEAR(acceleration_at_top(after, result.rate.hz, reach), -kGravity, 0.1);
   }
   EXPECT_NEAR(highest(after), highest(judged_heights(scene.motion("jump.npz"))), 0.02);
+}
+
+TEST(JumpClip, LandsOnABox) {
+  const JumpScene scene;
+  if (!scene.has_jump()) GTEST_SKIP() << "the shared data is absent";
+  ASSERT_EQ(
+      scene.jump("jump.npz", "out.npz", {"--box", "30", "--apex-by", "30"}).exit_code, 0);
+  const std::vector<double> before = judged_heights(scene.motion("jump.npz"));
+  const std::vector<double> after = judged_heights(scene.motion("out.npz"));
+  ASSERT_FALSE(before.empty() || after.empty());
+  // The captured feet land some millimetres above or below their take-off.
+  EXPECT_NEAR(after.back() - before.back(), 0.30, 0.01);
+  EXPECT_NEAR(highest(after) - highest(before), 0.30, kCaptured_m);
+}
+
+TEST(JumpClip, TheLandingIsWhereItIsWished) {
+  const JumpScene scene;
+  if (!scene.has_jump()) GTEST_SKIP() << "the shared data is absent";
+  ASSERT_EQ(scene.jump("jump.npz", "a.npz", {"--land", "0,0,0.5"}).exit_code, 0);
+  ASSERT_EQ(scene.jump("jump.npz", "b.npz", {"--land", "-0.2,0,0.8"}).exit_code, 0);
+  const Motion a = scene.motion("a.npz");
+  const Motion b = scene.motion("b.npz");
+  ASSERT_FALSE(a.poses.empty() || b.poses.empty());
+  const glm::dvec3 apart = b.poses.back().root_in_world - a.poses.back().root_in_world;
+  EXPECT_NEAR(apart.x, -0.2, 1e-3);
+  EXPECT_NEAR(apart.y, 0.0, 1e-3);
+  EXPECT_NEAR(apart.z, 0.3, 1e-3);
+}
+
+TEST(JumpClip, ARecipeWithTheSameOperationGivesTheSameMotion) {
+  const JumpScene scene;
+  if (!scene.has_jump()) GTEST_SKIP() << "the shared data is absent";
+  ASSERT_TRUE(recordings::write_file(
+      scene / "r.edit.toml",
+      "format = 1\nname = \"r\"\n[source]\npath = \"jump.npz\"\n"
+      "[[op]]\ndo = \"jump@1\"\napex_by_m = 0.08\npush_s = 0.6\nlaw = \"thesis\"\n"
+      "strength_g = 5\n"));
+  const ProgramRun edit =
+      run_program(program(),
+                  {"edit", "r.edit.toml", "--out", ".", "--format", "npz"},
+                  {.folder = (scene / ".").lexically_normal(), .interrupt_at = {}});
+  ASSERT_EQ(edit.exit_code, 0) << edit.err;
+  const ProgramRun jump = scene.jump(
+      "jump.npz",
+      "out.npz",
+      {"--apex-by", "8", "--push-time", "0.6", "--law", "thesis", "--strength", "5"});
+  ASSERT_EQ(jump.exit_code, 0) << jump.err;
+  const auto a = recordings::read_file(scene / "r.npz");
+  const auto b = recordings::read_file(scene / "out.npz");
+  ASSERT_TRUE(a && b);
+  EXPECT_TRUE(*a == *b);
 }
 
 TEST(JumpClip, TheSameInputGivesTheSameBytes) {

@@ -19,7 +19,7 @@ namespace {
 /// Arguments behind `marey jump` that are refused.
 struct RefusedJump {
   std::vector<std::string> more;
-  std::string part;  ///< Of the message.
+  std::string part;  ///< A part of the message.
 };
 
 void expect_message(const ProgramRun& run, int exit_code, const std::string& part) {

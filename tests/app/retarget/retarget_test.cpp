@@ -169,6 +169,7 @@ TEST(Retarget, ReportsWhetherBodiesAreOverTheirFeetAndKeepsThemThere) {
   }
   for (const char* page : {"a/retarget.html", "b/retarget.html"}) {
     EXPECT_NE(scene.bytes(page).find("Centre of mass and the feet"), std::string::npos);
+    EXPECT_NE(scene.bytes(page).find("Zero moment point inside"), std::string::npos);
   }
 }
 

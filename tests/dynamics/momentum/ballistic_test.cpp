@@ -74,6 +74,28 @@ TEST(MakeBallistic, LeavesAFreeFallInPlace) {
               1e-9);
 }
 
+TEST(MakeBallistic, TakesGivenEnds) {
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    Dice dice(7600 + seed);
+    MadeFlight flight = made_flight(dice, {.frames = 40});
+    const std::size_t last = flight.poses.size() - 1;
+    BallisticOptions options;
+    options.ends = {com_of_pose(flight, 0) + 0.002 * dice.direction(),
+                    com_of_pose(flight, last) + 0.002 * dice.direction()};
+    const BallisticReport report = make_ballistic(
+        flight.skeleton, flight.masses, flight.rate, flight.poses, options);
+    ASSERT_TRUE(report.applied);
+    EXPECT_LT(glm::distance(com_of_pose(flight, 0), options.ends->first_in_world), 1e-9);
+    EXPECT_LT(glm::distance(com_of_pose(flight, last), options.ends->last_in_world),
+              1e-9);
+    const double t = 7.0 / flight.rate.hz;
+    const glm::dvec3 wanted = options.ends->first_in_world +
+                              t * report.first_velocity_m_s +
+                              glm::dvec3(0.0, -0.5 * 9.81 * t * t, 0.0);
+    EXPECT_LT(glm::distance(com_of_pose(flight, 7), wanted), 1e-9);
+  }
+}
+
 TEST(MakeBallistic, LeavesFewerThanThreePosesUnchanged) {
   Dice dice(7501);
   MadeFlight flight = made_flight(dice, {.frames = 30});

@@ -13,7 +13,7 @@
 
 #include "core/human/centre_of_mass.h"
 #include "retarget/balance/measure_balance.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/body/place_masses.h"
 #include "tests/edit/ops/op_scene.h"
 #include "tests/edit/ops/standing_scene.h"
@@ -32,8 +32,8 @@ Motion leaning() {
   const auto map = retarget::map_body(upright.skeleton);
   const auto feet = world_from_joints(upright.skeleton, upright.poses[0]);
   return standing_motion(kFrames, [&](int frame, Pose& pose) {
-    const double share = retarget::smooth_step((frame - 40) / 60.0) *
-                         retarget::smooth_step((260 - frame) / 60.0);
+    const double share = smooth_step((frame - 40) / 60.0) *
+                         smooth_step((260 - frame) / 60.0);
     pose.parent_from_joint[static_cast<std::size_t>(HumanBone::kSpine)] =
         glm::angleAxis(0.5 * share, glm::dvec3(1, 0, 0));
     pose.root_in_world += share * glm::dvec3(0.0, -0.04, 0.15);

@@ -14,7 +14,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/body/body_volume.h"
 #include "retarget/constraints/activation.h"
 #include "tests/edit/ops/op_scene.h"
@@ -317,8 +317,8 @@ struct TableScene {
     const glm::dquat level(1, 0, 0, 0);
     const glm::dvec3 middle = retarget::axis_point_in_joint(hand, 0.0);
     for (int t = 0; t < 240; ++t) {
-      const double share = retarget::smooth_step((t - 40) / 50.0) *
-                           retarget::smooth_step((200 - t) / 50.0);
+      const double share = smooth_step((t - 40) / 50.0) *
+                           smooth_step((200 - t) / 50.0);
       const double height_m = 0.9 + hand.radius_m + 0.01 + 0.3 * (1.0 - share);
       const glm::dvec3 wrist =
           glm::dvec3(0.25, height_m, 0.3) - glm::dvec3(middle.x, middle.y, middle.z);

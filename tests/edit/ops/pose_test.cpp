@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "tests/edit/ops/op_scene.h"
 #include "tests/edit/ops/standing_scene.h"
 #include "tests/support/simulation/synthetic_walk.h"
@@ -46,7 +46,7 @@ TEST(PoseOp, AKeyMovesTheHandExactlyToItsPlaceAndFadesAroundIt) {
   const auto is = joint_way(out.motion, HumanBone::kLeftHand);
   for (int t = 0; t < kPoseFrames; ++t) {
     const auto i = static_cast<std::size_t>(t);
-    const double share = retarget::smooth_step(1.0 - std::abs(t - kAt) / 30.0);
+    const double share = smooth_step(1.0 - std::abs(t - kAt) / 30.0);
     EXPECT_LT(glm::distance(is[i], was[i] + share * moved_m), kRounding_m) << t;
   }
 }
@@ -132,7 +132,7 @@ TEST(PoseOp, KeysOneWidthApartAreASplineThroughTheKeys) {
   const auto was = joint_way(state.motion, HumanBone::kRightHand);
   const auto is = joint_way(out.motion, HumanBone::kRightHand);
   for (std::size_t t = 40; t <= 70; ++t) {
-    const double share = retarget::smooth_step((static_cast<double>(t) - 40.0) / 30.0);
+    const double share = smooth_step((static_cast<double>(t) - 40.0) / 30.0);
     const glm::dvec3 moved = first + share * (second - first);
     EXPECT_LT(glm::distance(is[t], was[t] + moved), 1e-9) << t;
   }

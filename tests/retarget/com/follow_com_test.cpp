@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "retarget/com/follow_com.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <span>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "retarget/com/foot_goals.h"
+#include "retarget/com/raise_heel.h"
 #include "tests/retarget/com/com_scenes.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/program/count_allocations.h"
@@ -160,45 +163,86 @@ TEST(FollowCom, ReportsATargetOutOfReachAndStretchesNothing) {
   }
 }
 
+// Remaining angle until the heel is as high as it can be: the sole's pitch or the foot's
+// own elevation is at its limit, or the ankle is between the pivot and the hip.
+double left_rad(const HeavyBody& body, const Pose& pose, int side) {
+  const FootMap& shape = body.map.feet[static_cast<std::size_t>(side)];
+  const Motion motion{body.skeleton, {60.0}, 0, {pose}};
+  const FootPlace place = foot_places(motion, body.map, side)[0];
+  const glm::dvec3 flat =
+      -(shape.has_toes ? shape.ball_from_ankle_in_t_pose
+                       : shape.ball_from_ankle_in_t_pose + shape.tip_from_ball_in_t_pose);
+  const glm::dvec3 now = place.foot * flat;
+  const glm::dvec3 hip = body.place(pose, body.map.leg(side).upper);
+  const auto elevation = [](const glm::dvec3& v) {
+    return std::atan2(v.y, std::hypot(v.x, v.z));
+  };
+  const double to_hip =
+      glm::dot(glm::normalize(hip - place.ankle_in_world), glm::normalize(now));
+  // The foot turns about one axis only, so the ankle passes the line at a distance.
+  const double beside_rad = to_hip > 0.98 ? 0.0 : 1.0;
+  return std::min({kMaxHeelPitch_rad - (elevation(now) - elevation(flat)),
+                   1.48 - elevation(now),
+                   beside_rad});
+}
+
+// Checks that a foot rose about its pivot, with flat toes, and no leg is too long.
+void expect_on_the_ball(const HeavyBody& body,
+                        const Pose& pose,
+                        int side,
+                        FootPlace before) {
+  const FootMap& shape = body.map.feet[static_cast<std::size_t>(side)];
+  const glm::dvec3 pivot =
+      shape.has_toes ? shape.ball_from_ankle_in_t_pose
+                     : shape.ball_from_ankle_in_t_pose + shape.tip_from_ball_in_t_pose;
+  const Motion motion{body.skeleton, {60.0}, 0, {pose}};
+  const FootPlace now = foot_places(motion, body.map, side)[0];
+  EXPECT_LT(glm::distance(now.ankle_in_world + now.foot * pivot,
+                          before.ankle_in_world + before.foot * pivot),
+            1e-9);
+  EXPECT_GE(now.ankle_in_world.y, before.ankle_in_world.y - 1e-12);
+  if (shape.has_toes) {
+    EXPECT_LT(turned_rad(now.toes, before.toes), 1e-9);
+  }
+  EXPECT_LE(extension(body, pose, side), 0.995 + 1e-9);
+}
+
 TEST(FollowCom, RaisesTheHeelAboutTheBallBeforeTheCentreOfMassFallsShort) {
   int raised = 0;
+  int at_limit = 0;
   for (int seed = 0; seed < kBodies; ++seed) {
+    SCOPED_TRACE(seed);
     const HeavyBody body = heavy_body(static_cast<std::uint64_t>(seed));
     testing::Dice dice(5000 + static_cast<std::uint64_t>(seed));
     const Pose reference = squatting(body, 0.5, dice);
     const double foot_m = glm::length(body.map.feet[0].ball_from_ankle_in_t_pose);
-    const glm::dvec3 target = body.com(reference) +
-                              glm::dvec3(0.0, 0.25 * body.map.leg_length_m * 0.2, 0.0) +
-                              glm::dvec3(0.0, 0.1 * foot_m, 0.0);
+    const glm::dvec3 target =
+        body.com(reference) +
+        glm::dvec3(0.0, 0.05 * body.map.leg_length_m + 0.1 * foot_m, 0.0);
     const auto flat = own_feet(body, reference, 1.0, 0.0);
     const auto rising = own_feet(body, reference, 1.0, 1.0);
     const Followed low = followed(body, reference, target, flat);
     const Followed high = followed(body, reference, target, rising);
-    const double low_m = glm::distance(body.com(low.pose), target);
-    if (low_m < 1e-3) continue;
-    ++raised;
-    ASSERT_LT(glm::distance(body.com(high.pose), target), 1e-8) << seed;
-    EXPECT_GT(high.report.raised_heel_m, 1e-4) << seed;
+    if (glm::distance(body.com(low.pose), target) < 1e-3) continue;
+    double least_rad = 1.0;
     for (int side = 0; side < 2; ++side) {
-      const FootMap& shape = body.map.feet[static_cast<std::size_t>(side)];
-      const glm::dvec3 pivot = shape.has_toes ? shape.ball_from_ankle_in_t_pose
-                                              : shape.ball_from_ankle_in_t_pose +
-                                                    shape.tip_from_ball_in_t_pose;
-      const FootPlace& before = flat[static_cast<std::size_t>(side)].place;
-      const Motion motion{body.skeleton, {60.0}, 0, {high.pose}};
-      const FootPlace now = foot_places(motion, body.map, side)[0];
-      EXPECT_LT(glm::distance(now.ankle_in_world + now.foot * pivot,
-                              before.ankle_in_world + before.foot * pivot),
-                1e-9)
-          << seed;
-      EXPECT_GE(now.ankle_in_world.y, before.ankle_in_world.y - 1e-12) << seed;
-      if (shape.has_toes) {
-        EXPECT_LT(turned_rad(now.toes, before.toes), 1e-9) << seed;
-      }
-      EXPECT_LE(extension(body, high.pose, side), 0.995 + 1e-9) << seed;
+      const auto s = static_cast<std::size_t>(side);
+      expect_on_the_ball(body, high.pose, side, flat[s].place);
+      least_rad = std::min(least_rad, left_rad(body, high.pose, side));
     }
+    EXPECT_GT(high.report.raised_heel_m, 1e-4);
+    if (glm::distance(body.com(high.pose), target) < 1e-8) {
+      ++raised;
+      continue;
+    }
+    // Only where the heel cannot rise further does the centre of mass fall short.
+    ++at_limit;
+    EXPECT_LT(least_rad, 1e-6);
+    EXPECT_LT(glm::distance(body.com(high.pose), target),
+              glm::distance(body.com(low.pose), target));
   }
   EXPECT_GT(raised, kBodies / 3);
+  EXPECT_LT(at_limit, raised / 10);
 }
 
 TEST(FollowCom, IsMirroredWithItsBody) {

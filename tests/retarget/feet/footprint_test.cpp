@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/degrees.h"
-#include "retarget/base/smooth_step.h"
+#include "core/base/smooth_step.h"
 #include "retarget/feet/plan_foot_path.h"
 
 namespace marey::retarget {

@@ -16,7 +16,7 @@ namespace marey::testing {
 namespace {
 
 struct JudgedFrame {
-  std::vector<glm::dvec3> p_in_world;  // Of each mass.
+  std::vector<glm::dvec3> p_in_world;  // Centre of each mass.
   std::vector<glm::dmat3> turn;        // World from the mass's joint.
   glm::dvec3 com_in_world{0.0};
 };

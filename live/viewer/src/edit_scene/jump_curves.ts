@@ -130,8 +130,7 @@ export class JumpCurves {
     this.paintTimes(context);
     this.paintPhases(context, words);
     for (const plot of this.plots) {
-      const dy = plot.strength;
-      if (dy !== null) this.paintLevel(context, plot, dy);
+      if (plot.strength !== null) this.paintStrength(context, words, plot, plot.strength);
       this.paintLine(context, plot, plot.captured, theme.colour('quiet'), 1.5, [4, 3]);
       this.paintLine(context, plot, plot.made, theme.colour('accent'), 2, []);
     }
@@ -160,10 +159,11 @@ export class JumpCurves {
       context.strokeStyle = theme.colour(k === 0 ? 'quiet' : 'rule');
       line(context, LEFT_PX, y, LEFT_PX + this.plotWidth, y);
       context.fillStyle = theme.colour('quiet');
-      context.fillText(fixed(k * step, decimals), LEFT_PX - 5, y);
+      // The title is above the axis.
+      if (y > plot.top + 4) context.fillText(fixed(k * step, decimals), LEFT_PX - 5, y);
     }
     context.textAlign = 'left';
-    context.fillText(plot.title, 0, plot.top - 10);
+    context.fillText(plot.title, 0, plot.top - 11);
   }
 
   private paintTimes(context: CanvasRenderingContext2D): void {
@@ -199,16 +199,22 @@ export class JumpCurves {
     });
   }
 
-  private paintLevel(context: CanvasRenderingContext2D, plot: Plot, value: number): void {
+  /** The landing may take more: the line is that of the push. */
+  private paintStrength(context: CanvasRenderingContext2D, {phases}: JumpWords, plot: Plot,
+    value: number): void {
     const y = this.y(plot, value);
+    const [from, to] = phases ? [this.x(phases.start_s), this.x(phases.takeoff_s)]
+      : [LEFT_PX, LEFT_PX + this.plotWidth];
     context.strokeStyle = this.theme.colour('fair');
     context.fillStyle = this.theme.colour('fair');
     context.setLineDash([6, 3]);
-    line(context, LEFT_PX, y, LEFT_PX + this.plotWidth, y);
+    line(context, from, y, to, y);
     context.setLineDash([]);
-    context.textAlign = 'right';
-    context.fillText(`largest push ${fixed(value, 1)} g`, LEFT_PX + this.plotWidth - 2,
-      y + (y - plot.top < 16 ? 9 : -8));
+    const words = `≤ ${fixed(value, 1)} g`;
+    const isAfter = to + 50 < LEFT_PX + this.plotWidth;
+    context.textAlign = isAfter ? 'left' : 'right';
+    context.fillText(words, isAfter ? to + 5 : to - 2,
+      isAfter ? y : y + (y - plot.top < 16 ? 9 : -8));
   }
 
   private paintLine(context: CanvasRenderingContext2D, plot: Plot, values: Values, colour: string,

@@ -9,7 +9,7 @@ import type {EditView} from '../edit/edit_view';
 import type {Change} from '../edit/edit_document';
 import {JumpCurves} from './jump_curves';
 import {
-  fallsUnusually, insertedJump, jumpWords, keysChange, lowestChange, lowestWords, peakOf,
+  fallsUnusually, insertedJump, jumpWords, keysChange, lowestChange, lowestWords, planWords,
   showsTimesAfter, shownJump,
 } from './jump_search';
 import {JumpSpace, RULE_COLOURS} from './jump_space';
@@ -18,7 +18,7 @@ import {newOp, shownOf} from '../ops/new_op';
 import type {JumpOptions, JumpWords, LowestWords, OpWords} from '../protocol/edit_protocol';
 import {button, el, keepRows, setText} from '../base/elements';
 import type {Theme} from '../base/theme';
-import {fixed, plural} from '../base/words';
+import {plural} from '../base/words';
 import {Section} from '../panels/panels';
 
 export interface JumpActions {
@@ -208,7 +208,7 @@ export class JumpPanel {
       this.showList(words);
       setText(this.refusal, words.refusal);
       this.refusal.hidden = words.refusal === '';
-      setText(this.facts, factsOf(words));
+      setText(this.facts, planWords(words));
       const point = this.dragged ?? words.lowest;
       setText(this.lowest, point ? lowestWords(words.space, point) : '');
     }
@@ -351,18 +351,4 @@ export class JumpPanel {
     this.view.cancel();
     this.update();
   }
-}
-
-/** Figures of the new jump in a line. */
-function factsOf(words: JumpWords): string {
-  const {phases, strength_g} = words;
-  const peak = peakOf(words);
-  if (!phases) return '';
-  const parts = [`Push ${fixed(phases.takeoff_s - phases.start_s, 2)} s`,
-    `${fixed(phases.landing_s - phases.takeoff_s, 2)} s in the air`,
-    `landing ${fixed(phases.end_s - phases.landing_s, 2)} s`];
-  if (peak !== null) {
-    parts.push(`peak ${fixed(peak, 1)}${strength_g === null ? '' : ` of ${fixed(strength_g, 1)}`} g`);
-  }
-  return `${parts.join(', ')}.`;
 }

@@ -77,7 +77,7 @@ function isJump(op: OpWords | undefined): boolean {
 }
 
 /** Returns the index of the jump that the panel shows: the selected operation, or the one that
- *  made the shown motion. null: there is none. */
+ *  made the shown motion; or null. */
 export function shownJump(ops: readonly OpWords[], selected: number | null,
   until: number | null): number | null {
   if (selected !== null && isJump(ops[selected])) return selected;
@@ -144,8 +144,24 @@ export function lowestWords(space: readonly SpaceColumnWords[], {at, height_m}: 
   return `${place}; possible: ${fixed(low, 3)} to ${fixed(high, 3)} m.`;
 }
 
-/** Returns the largest push of the curve, in g; null: there is none. */
-export function peakOf({push_g}: Pick<JumpWords, 'push_g'>): number | null {
-  return push_g.reduce((peak: number | null, value) =>
-    (value === null ? peak : Math.max(peak ?? value, value)), null);
+/** Returns the largest push between two times, in g; null: it is unknown. */
+export function peakOf({push_g, time_s}: Pick<JumpWords, 'push_g' | 'time_s'>, from_s: number,
+  to_s: number): number | null {
+  return push_g.reduce((peak: number | null, value, i) =>
+    (value === null || time_s[i] < from_s || time_s[i] > to_s ? peak
+      : Math.max(peak ?? value, value)), null);
+}
+
+/** Figures of the new jump in a line. */
+export function planWords(words: JumpWords): string {
+  const {phases} = words;
+  if (!phases) return '';
+  const {start_s, takeoff_s, landing_s, end_s} = phases;
+  const part = (name: string, from_s: number, to_s: number): string => {
+    const peak = peakOf(words, from_s, to_s);
+    return `${name} ${fixed(to_s - from_s, 2)}\u00a0s` +
+      (peak === null ? '' : ` with up to ${fixed(peak, 1)}\u00a0g`);
+  };
+  return `${part('Push', start_s, takeoff_s)}, ${fixed(landing_s - takeoff_s, 2)}\u00a0s in the ` +
+    `air, ${part('landing', landing_s, end_s)}.`;
 }

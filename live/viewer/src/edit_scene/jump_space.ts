@@ -291,10 +291,11 @@ export class JumpSpace {
     context.beginPath();
     context.arc(x, y, 4.5, 0, 2 * Math.PI);
     context.stroke();
-    // The name is on the side without P2.
-    const isRight = x < LEFT_PX + this.plotWidth - 70 && point.at >= (this.point?.at ?? 0);
-    context.textAlign = isRight ? 'left' : 'right';
-    context.fillText('captured', isRight ? x + 9 : x - 9, y);
+    // The name is on the side without P2, if there is room.
+    const isAfter = point.at >= (this.point?.at ?? 0);
+    const isLeft = isAfter ? x > LEFT_PX + this.plotWidth - 64 : x > LEFT_PX + 64;
+    context.textAlign = isLeft ? 'right' : 'left';
+    context.fillText('captured', isLeft ? x - 9 : x + 9, isLeft === isAfter ? y - 13 : y);
   }
 
   private paintPoint(context: CanvasRenderingContext2D, point: LowestWords): void {

@@ -70,8 +70,8 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
   private readonly handles: PoseHandles;
   private readonly path: PathTool;
   private readonly ghost: Ghost;
-  private readonly loops: LoopsPanel;
   private readonly jump: JumpPanel;
+  private readonly sceneTools: readonly {update(): void; setTime(time: number): void}[];
   private scene: SceneWords | null = null;
   private skeletons: Bodies = [];
   /** The message that contains `output`. */
@@ -109,16 +109,16 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     this.handles = new PoseHandles(this, this.stage, seek);
     this.path = new PathTool(this, this.stage, this.theme, (on) => this.handles.setHidden(on));
     this.ghost = new Ghost(this.stage, () => this.renew());
-    this.loops = new LoopsPanel(this, this.theme, {
+    const loops = new LoopsPanel(this, this.theme, {
       seek: (frame, until) => this.whenAt(until, () => this.stopAt(frame)),
       playCycle: (first, last, until) => this.whenAt(until, () => this.playCycle(first, last))});
-    this.jump = new JumpPanel(this, this.theme, {seek,
-      select: (index) => this.ops.select(index)});
+    this.jump = new JumpPanel(this, this.theme, {seek, select: (op) => this.ops.select(op)});
+    this.sceneTools = [this.handles, this.path, loops, this.jump];
     this.result = new ResultPanel({choose: (output) => this.choose(output),
       exportResults: () => this.document.exportResults()});
     this.panels = new Panels(byId('panels'), () => {});
     this.panels.add(this.ops.section, this.result.section, ...sceneSections(
-      {handles: this.handles, path: this.path, loops: this.loops, jump: this.jump,
+      {handles: this.handles, path: this.path, loops, jump: this.jump,
         ghost: this.ghost},
       new ViewPanel(this.stage, this.theme, () => this.renew())));
     this.bar = new EditBar(byId('bar'), this.stage.element, this.theme, {
@@ -322,10 +322,7 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
   }
 
   private updateTools(): void {
-    this.handles.update();
-    this.path.update();
-    this.loops.update();
-    this.jump.update();
+    for (const tool of this.sceneTools) tool.update();
     this.timeline.repaint();
   }
 
@@ -359,10 +356,7 @@ export class EditPage implements Listener, StageListener, DocumentListener, Edit
     }
     this.timeline.place(playback.first, playback.last, playback.time, playback.frame);
     this.transport.show();
-    this.handles.setTime(playback.time);
-    this.path.setTime(playback.time);
-    this.loops.setTime(playback.time);
-    this.jump.setTime(playback.time);
+    for (const tool of this.sceneTools) tool.setTime(playback.time);
   }
 
   afterPicture(): void {

@@ -31,9 +31,9 @@ const MEANINGS = {
 
 /** Marks of the balance. */
 const MARKS = [
-  ['ball', 'centre of mass', 'Green above the support polygon, red beside it'],
-  ['ring', 'zero moment point', 'Where the floor’s push acts, on the floor. Red outside of the ' +
-    'support polygon: the feet alone cannot make the motion. None in flight'],
+  ['ball', 'centre of mass', 'Green above the support polygon, red outside of it'],
+  ['ring', 'zero moment point', 'The place on the floor at which the push of the floor acts. ' +
+    'Red outside of the support polygon: such a motion needs other supports. Not in flight'],
 ] as const;
 
 export class ViewPanel {

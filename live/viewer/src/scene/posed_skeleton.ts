@@ -91,4 +91,6 @@ export function blendFrames(into: SkeletonFrame, a: SkeletonFrame, b: SkeletonFr
     into.centre_of_mass_in_world[k] = (1 - share) * a.centre_of_mass_in_world[k] +
       share * b.centre_of_mass_in_world[k];
   }
+  if (!a.hasZmp || !b.hasZmp) return;
+  for (let k = 0; k < 2; ++k) into.zmp_xz[k] = (1 - share) * a.zmp_xz[k] + share * b.zmp_xz[k];
 }

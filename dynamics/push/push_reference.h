@@ -4,10 +4,24 @@
 
 #include <algorithm>
 #include <cstddef>
-
-#include "dynamics/push/force_push.h"
+#include <vector>
 
 namespace marey::dynamics {
+
+/// The captured push of one axis, in the form from which another is derived.
+/// Preparation is done once; deriving pushes from it allocates nothing.
+struct PushReference {
+  double duration_s = 0.0;
+  /// Force per kilogram at equally spaced times from 0 to duration_s, linear in between;
+  /// at least 2. Vertical: acceleration plus gravity, not negative. [m/s^2]
+  std::vector<double> force_m_s2;
+  /// Running integrals of the force, at the same times: once and twice.
+  std::vector<double> impulse_m_s;
+  std::vector<double> double_impulse_m;
+};
+/// Computes the integrals exactly. Precondition: duration_s above 0; at least 2 forces.
+[[nodiscard]] PushReference make_push_reference(double duration_s,
+                                                std::vector<double> force_m_s2);
 
 /// Place of x = t / duration in a reference: `w` is 0 to 1 after sample `index`.
 struct SamplePlace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace marey::retarget {
+namespace marey {
 
 /// Rises from 0 to 1 while `x` does, with zero first and second derivatives at both ends;
 /// constant outside. All blending in and out uses it and is therefore C2.
@@ -13,4 +13,4 @@ namespace marey::retarget {
   return x * x * x * (10.0 + x * (6.0 * x - 15.0));
 }
 
-}  // namespace marey::retarget
+}  // namespace marey
