@@ -128,4 +128,27 @@ void PreviewControl::step(std::span<const glm::dvec2> wanted_xz_m) {
   acceleration_ += dt * jerk;
 }
 
+PreviewBalance::PreviewBalance(FrameRate rate,
+                               double height_m,
+                               const PreviewOptions& options)
+    : control_(rate, height_m, options),
+      known_(control_.preview_frames() + 1, glm::dvec2(0.0)) {
+  reset();
+}
+
+void PreviewBalance::reset() {
+  std::fill(known_.begin(), known_.end(), glm::dvec2(0.0));
+  control_.reset(glm::dvec2(0.0));
+  received_ = 0;
+}
+
+glm::dvec2 PreviewBalance::step(const glm::dvec2& zmp_shift_xz_m) {
+  std::move(known_.begin() + 1, known_.end(), known_.begin());
+  known_.back() = zmp_shift_xz_m;
+  const glm::dvec2 shift = control_.com_xz_m();
+  control_.step(known_);
+  ++received_;
+  return received_ > latency_frames() ? shift : glm::dvec2(0.0);
+}
+
 }  // namespace marey::dynamics

@@ -71,4 +71,27 @@ class PreviewControl {
   glm::dvec2 error_sum_{0.0};
 };
 
+/// Displacement of the centre of mass of a stream that moves its zero moment point: the
+/// stream is delayed by the preview, in which wanted displacements of the point are
+/// known.
+class PreviewBalance {
+ public:
+  /// Preconditions: those of preview_gains().
+  PreviewBalance(FrameRate rate, double height_m, const PreviewOptions& options = {});
+
+  /// Returns the delay of the stream. [frames]
+  [[nodiscard]] std::size_t latency_frames() const { return control_.preview_frames(); }
+  /// Starts a new stream.
+  void reset();
+  /// Takes the wanted displacement of the zero moment point of the newest frame. Returns
+  /// the displacement of the centre of mass of the frame latency_frames() before; 0
+  /// before the first frame. [m] Allocates nothing. Cost: linear in the preview.
+  glm::dvec2 step(const glm::dvec2& zmp_shift_xz_m);
+
+ private:
+  PreviewControl control_;
+  std::vector<glm::dvec2> known_;  // Of the delayed frame and the following ones.
+  std::size_t received_ = 0;
+};
+
 }  // namespace marey::dynamics
