@@ -38,10 +38,10 @@ Result<ZmpAdapted> adapt_with_zmp(const AdaptBody& body,
       edit::zmp_ground(body.reference, body.map, body.contacts);
   dynamics::KeepZmpOptions keep;
   keep.zmp.floor_height_m = ground.floor_height_m;
-  ZmpAdapted out;
   edit::ZmpTrack track = edit::zmp_track(body.reference, body.map, masses, ground);
-  out.com_in_world = track.com_in_world;
-  std::vector<glm::dvec2> displaced(track.com_in_world.size(), glm::dvec2(0.0));
+  const std::vector<glm::dvec3> start = track.com_in_world;
+  std::vector<glm::dvec2> displaced(start.size(), glm::dvec2(0.0));
+  ZmpAdapted out;
   for (int round = 0; round < kZmpRounds; ++round) {
     const dynamics::KeepZmpResult step = dynamics::keep_zmp({track.com_in_world,
                                                              track.reactions,
@@ -51,11 +51,15 @@ Result<ZmpAdapted> adapt_with_zmp(const AdaptBody& body,
                                                              {}},
                                                             keep);
     keep.price_m = step.price_m;
-    for (std::size_t t = 0; t < displaced.size(); ++t) {
-      displaced[t] += step.shift_xz_m[t];
-      out.com_in_world[t] += glm::dvec3(step.shift_xz_m[t].x, 0.0, step.shift_xz_m[t].y);
+    // Targets start from where the centre of mass is: it may not have reached the last
+    // ones.
+    std::vector<glm::dvec3> targets = start;
+    for (std::size_t t = 0; t < start.size(); ++t) {
+      targets[t].x = track.com_in_world[t].x + step.shift_xz_m[t].x;
+      targets[t].z = track.com_in_world[t].z + step.shift_xz_m[t].y;
+      displaced[t] = {targets[t].x - start[t].x, targets[t].z - start[t].z};
     }
-    options.com_in_world = out.com_in_world;
+    options.com_in_world = targets;
     auto adapted = retarget::adapt_motion(body.reference,
                                           body.character,
                                           constraints,
@@ -63,10 +67,15 @@ Result<ZmpAdapted> adapt_with_zmp(const AdaptBody& body,
                                           options,
                                           round == 0 ? progress : Progress{});
     if (!adapted) return adapted.error();
-    out.adapted = *std::move(adapted);
-    track = edit::zmp_track(out.adapted.motion, body.map, masses, ground);
-    out.figures = dynamics::zmp_figures(track.reactions, track.supports);
-    if (out.figures.inside_frames == out.figures.supported_frames) break;
+    track = edit::zmp_track(adapted->motion, body.map, masses, ground);
+    const auto figures = dynamics::zmp_figures(track.reactions, track.supports);
+    const auto outside = [](const dynamics::ZmpFigures& of) {
+      return of.supported_frames - of.inside_frames;
+    };
+    if (round == 0 || outside(figures) < outside(out.figures)) {
+      out = {*std::move(adapted), figures};
+    }
+    if (outside(figures) == 0) break;
   }
   return out;
 }

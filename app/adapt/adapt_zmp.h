@@ -21,15 +21,13 @@ namespace marey::app {
 struct ZmpAdapted {
   retarget::AdaptedMotion adapted;
   dynamics::ZmpFigures figures{};
-  /// Targets of the centre of mass with which the motion was adapted.
-  std::vector<glm::dvec3> com_in_world;
 };
 
 /// Adapts a motion up to six times: the first time with the centre of mass of the motion
 /// moved as keep_zmp() wants, then with corrections for the changes by adaptation.
-/// Returns the last result. Support areas are those of the adapted feet from strike to
-/// toe-off of the motion. Errors: those of retarget::adapt_motion().
-/// Precondition: options.adapt.balance is BalanceMode::kZmp.
+/// Returns the result with the fewest points outside. Support areas are those of the
+/// adapted feet from strike to toe-off of the motion. Errors: those of
+/// retarget::adapt_motion(). Precondition: options.adapt.balance is BalanceMode::kZmp.
 [[nodiscard]] Result<ZmpAdapted> adapt_with_zmp(
     const AdaptBody& body,
     const ConstraintSet& constraints,

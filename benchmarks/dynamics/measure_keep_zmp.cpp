@@ -53,8 +53,11 @@ JudgedFrames judged(const edit::EditState& state,
                     const edit::ZmpGround& ground,
                     const Motion& motion) {
   JudgedFrames out;
-  const auto frames =
-      testing::judge_zmp(motion, state.map, masses, ground.loaded, ground.floor_height_m);
+  const auto frames = testing::judge_zmp(motion,
+                                         testing::judged_feet(state.map),
+                                         masses,
+                                         ground.loaded,
+                                         ground.floor_height_m);
   for (std::size_t t = 0; t < frames.size(); ++t) {
     if (frames[t].vertical_force_g < kLoadedJudge_g) continue;
     ++out.loaded;

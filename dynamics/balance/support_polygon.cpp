@@ -34,6 +34,36 @@ std::optional<double> distance_outside(std::span<const glm::dvec2> corners,
   return is_inside ? -nearest_m : nearest_m;
 }
 
+glm::dvec2 moved_inside(std::span<const glm::dvec2> corners,
+                        const glm::dvec2& p_xz_m,
+                        double margin_m) {
+  const auto outside_m = distance_outside(corners, p_xz_m);
+  if (!outside_m || *outside_m <= -margin_m) return p_xz_m;
+  glm::dvec2 middle(0.0);
+  for (const glm::dvec2& corner : corners) {
+    middle += corner / static_cast<double>(corners.size());
+  }
+  glm::dvec2 out = p_xz_m;
+  if (*outside_m > 0.0) {
+    double nearest_m = std::numeric_limits<double>::max();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const glm::dvec2 a = corners[i];
+      const glm::dvec2 along = corners[(i + 1) % corners.size()] - a;
+      const double squared = glm::dot(along, along);
+      const double at = squared > 0.0
+                            ? std::clamp(glm::dot(p_xz_m - a, along) / squared, 0.0, 1.0)
+                            : 0.0;
+      const glm::dvec2 on_edge = a + at * along;
+      if (glm::distance(on_edge, p_xz_m) >= nearest_m) continue;
+      nearest_m = glm::distance(on_edge, p_xz_m);
+      out = on_edge;
+    }
+  }
+  const double way_m = glm::distance(out, middle);
+  if (way_m <= margin_m) return middle;
+  return out + margin_m / way_m * (middle - out);
+}
+
 ZmpFigures zmp_figures(std::span<const GroundReaction> reactions,
                        std::span<const SupportPolygon> supports) {
   MAREY_ASSERT(reactions.size() == supports.size());

@@ -21,6 +21,13 @@ using SupportPolygon = std::vector<glm::dvec2>;
 [[nodiscard]] std::optional<double> distance_outside(std::span<const glm::dvec2> corners,
                                                      const glm::dvec2& p_xz_m);
 
+/// Returns a point inside of a support area: `p_xz_m` if it is further inside than the
+/// margin, else a point near the nearest one on the edge, moved by the margin towards the
+/// mean of the corners. Without support: `p_xz_m`. Linear in corners.
+[[nodiscard]] glm::dvec2 moved_inside(std::span<const glm::dvec2> corners,
+                                      const glm::dvec2& p_xz_m,
+                                      double margin_m);
+
 /// Zero moment points of a motion against its support areas.
 struct ZmpFigures {
   int loaded_frames = 0;       ///< There is a zero moment point.

@@ -41,6 +41,19 @@ TEST(SupportPolygon, PointsAndLinesHaveNoInside) {
   EXPECT_GE(*distance_outside(SupportPolygon{{0, 0}, {1, 0}, {2, 0}}, {3, 0}), 1.0);
 }
 
+TEST(SupportPolygon, PointsAreMovedInside) {
+  testing::Dice dice(5);
+  for (int i = 0; i < 500; ++i) {
+    const glm::dvec2 p(dice.between(-1, 2), dice.between(-1, 2));
+    const glm::dvec2 q = moved_inside(kUnitSquare, p, 0.05);
+    EXPECT_LT(*distance_outside(kUnitSquare, q), 0.0);
+    if (*distance_outside(kUnitSquare, p) < -0.05) {
+      EXPECT_EQ(q, p);
+    }
+  }
+  EXPECT_EQ(moved_inside({}, {3, 4}, 0.05), glm::dvec2(3, 4));
+}
+
 TEST(SupportPolygon, FiguresCountLoadedSupportedAndInsideFrames) {
   std::vector<GroundReaction> reactions(4);
   reactions[0].zmp_xz_m = glm::dvec2(0.5, 0.5);

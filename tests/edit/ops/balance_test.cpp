@@ -126,8 +126,11 @@ int zmp_frames_outside(const EditState& state, const EditState& reference) {
   const ZmpGround ground =
       zmp_ground(reference.motion, reference.map, reference.contacts);
   int out = 0;
-  for (const testing::JudgedZmp& one : testing::judge_zmp(
-           state.motion, state.map, *masses, ground.loaded, ground.floor_height_m)) {
+  for (const testing::JudgedZmp& one : testing::judge_zmp(state.motion,
+                                                          testing::judged_feet(state.map),
+                                                          *masses,
+                                                          ground.loaded,
+                                                          ground.floor_height_m)) {
     if (one.vertical_force_g >= 0.2 && one.outside_m && *one.outside_m > 1e-6) ++out;
   }
   return out;

@@ -13,7 +13,6 @@
 #include <glm/matrix.hpp>
 
 #include "core/pose.h"
-#include "retarget/body/rotation_from_t_pose.h"
 
 namespace marey::testing {
 namespace {
@@ -60,7 +59,7 @@ Slopes fitted(const std::vector<glm::dvec3>& samples,
 }
 
 // Returns the corners of the bearing parts of both soles.
-std::vector<glm::dvec2> sole_corners(const retarget::BodyMap& map,
+std::vector<glm::dvec2> sole_corners(const JudgedFeet& feet,
                                      const std::vector<RigidTransform>& joints,
                                      const Contacts& contacts,
                                      int frame) {
@@ -75,18 +74,17 @@ std::vector<glm::dvec2> sole_corners(const retarget::BodyMap& map,
     const bool heel = holds(contacts.feet[s].heel);
     const bool ball = holds(contacts.feet[s].ball);
     if (!heel && !ball) continue;
-    const retarget::FootMap& foot = map.feet[s];
-    const JointIndex ankle = map.leg(side).end;
-    const glm::dquat turn = retarget::rotation_from_t_pose(map, joints, ankle);
-    const HumanBone toes = side == 0 ? HumanBone::kLeftToes : HumanBone::kRightToes;
-    const auto toe_joint = map.joint_of[index(toes)];
-    const glm::dvec3 p = joints[index(ankle)].translation;
-    const glm::dvec3 rear = p + turn * foot.heel_from_ankle_in_t_pose;
-    const glm::dvec3 middle = p + turn * foot.ball_from_ankle_in_t_pose;
-    const glm::dvec3 front =
-        middle +
-        (toe_joint ? retarget::rotation_from_t_pose(map, joints, *toe_joint) : turn) *
-            foot.tip_from_ball_in_t_pose;
+    const JudgedFoot& foot = feet[s];
+    const auto turned = [&](JointIndex joint, const glm::dquat& t_pose) {
+      return joints[index(joint)].rotation * glm::inverse(t_pose);
+    };
+    const glm::dquat turn = turned(foot.ankle, foot.t_pose_from_ankle);
+    const glm::dquat toes_turn =
+        foot.toes ? turned(*foot.toes, foot.t_pose_from_toes) : turn;
+    const glm::dvec3 p = joints[index(foot.ankle)].translation;
+    const glm::dvec3 rear = p + turn * foot.heel_m;
+    const glm::dvec3 middle = p + turn * foot.ball_m;
+    const glm::dvec3 front = middle + toes_turn * foot.tip_from_ball_m;
     const glm::dvec2 whole(front.x - rear.x, front.z - rear.z);
     const glm::dvec2 half_width = 0.19 * glm::dvec2(-whole.y, whole.x);
     const glm::dvec2 from =
@@ -178,7 +176,7 @@ Sums sums_of(const std::vector<std::vector<RigidTransform>>& joints,
 }  // namespace
 
 std::vector<JudgedZmp> judge_zmp(const Motion& motion,
-                                 const retarget::BodyMap& map,
+                                 const JudgedFeet& feet,
                                  std::span<const PointMass> masses,
                                  const Contacts& contacts,
                                  double floor_height_m,
@@ -202,7 +200,7 @@ std::vector<JudgedZmp> judge_zmp(const Motion& motion,
     one.vertical_force_g = force.y / weight.y;
     one.p_xz_m = {com.x + (moment.z - height_m * force.x) / force.y,
                   com.z - (moment.x + height_m * force.z) / force.y};
-    const auto corners = sole_corners(map, joints[t], contacts, static_cast<int>(t));
+    const auto corners = sole_corners(feet, joints[t], contacts, static_cast<int>(t));
     if (!corners.empty()) one.outside_m = outside_of(corners, one.p_xz_m);
     out.push_back(one);
   }
