@@ -14,7 +14,7 @@
 namespace marey::dynamics {
 namespace {
 
-/// Share of a support in which the residual fades beside the flight.
+/// Share of a support in which the residual fades next to the flight.
 constexpr double kResidualFade = 0.14;
 
 }  // namespace

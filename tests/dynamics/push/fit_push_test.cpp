@@ -120,7 +120,7 @@ TEST(FitPush, AHorizontalForceKeepsItsSign) {
   EXPECT_NEAR(reference_force(fit->reference, 0.5), -3.0, 1e-4);
 }
 
-TEST(FitPush, DeclinesTooFewPositionsAndThoseThatAreNotFinite) {
+TEST(FitPush, DeclinesTooFewOrInfinitePositions) {
   Track track = drop_jump(100.0, 0.0, 0);
   EXPECT_FALSE(fit_push(
       std::span(track.time_s).first(7), std::span(track.height_m).first(7), kDuration_s));

@@ -20,7 +20,7 @@ constexpr double kHeelRise_m = 0.09;
 constexpr double kHeelRise_s = 0.12;
 constexpr double kFlatten_s = 0.06;
 
-constexpr double kDownShare = 0.35;  // Of gravity, at the start of a countermovement.
+constexpr double kDownShare = 0.35;  // Share of gravity at the start of a countermovement.
 constexpr double kLeavingRamp_s = 0.04;
 constexpr double kMeetingRamp_s = 0.03;
 

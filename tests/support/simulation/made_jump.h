@@ -44,7 +44,7 @@ struct MadeFlightTruth {
   glm::dvec3 landing_in_world{0.0};
   glm::dvec3 landing_m_s{0.0};
   double apex_m = 0.0;
-  double floor_m = 0.0;  ///< Of the take-off.
+  double floor_m = 0.0;  ///< Floor of the take-off.
   double landing_floor_m = 0.0;
 };
 
