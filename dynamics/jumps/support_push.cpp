@@ -14,6 +14,8 @@ constexpr int kSupportInstants = 64;
 constexpr double kShareOfCone = 0.70710678118654752;
 /// Tolerance of captured horizontal forces. [m/s^2]
 constexpr double kOverCaptured_m_s2 = 0.5;
+/// Upward velocity of a body that counts as standing.
+constexpr double kNearlyStill_m_s = 0.1;
 constexpr double kGolden = 0.61803398874989485;
 constexpr int kGoldenSteps = 30;
 
