@@ -59,6 +59,9 @@ std::optional<std::variant<ForcePush, ThesisPush>> vertical_push(
   ends.start_m_s2 =
       std::max(scale * reference.axes[1].force_m_s2.front() - wish.gravity_m_s2,
                -wish.gravity_m_s2);
+  // The law needs a body that falls or stands at the start.
+  if (ends.start_m_s > 0.0 && ends.start_m_s < kNearlyStill_m_s) ends.start_m_s = 0.0;
+  if (ends.start_m_s == 0.0) ends.start_m_s2 = std::min(*ends.start_m_s2, 0.0);
   ends.end_m_s2 =
       std::max(scale * reference.axes[1].force_m_s2.back() - wish.gravity_m_s2,
                -wish.gravity_m_s2);
