@@ -84,7 +84,6 @@ class ZmpProgramme {
       const double gap = evaluate();
       if (gap < kLastGap && residual_ < kLastResidual) return i;
       assemble();
-      // Predictor, then corrector.
       eliminate(0.0, false);
       const double predicted = std::pow(1.0 - longest_step(), 3.0);
       for (ZmpEdge& edge : edges_) {
