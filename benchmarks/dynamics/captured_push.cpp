@@ -7,18 +7,12 @@
 #include <utility>
 
 #include "dynamics/jumps/find_jumps.h"
+#include "dynamics/push/fit_push.h"
 #include "dynamics/push/force_splines.h"
 #include <Eigen/Dense>
 
-#include "core/signal/choose_smoothing.h"
-#include "core/signal/smoothing_spline.h"
-
 namespace marey {
 namespace {
-
-constexpr double kLargestCutoff_hz = 10.0;
-constexpr double kForcesPerFrame = 2.0;
-constexpr std::size_t kMinFrames = 8;
 
 /// DJ1 above 20 N, from its plates at 2 kHz.
 constexpr double kDropJumpTouchdown_s = 1.4925;
@@ -34,22 +28,7 @@ std::string person_of(const std::string& clip) {
 
 }  // namespace
 
-SplineCurve smoothed_height(const BodyTrack& track) {
-  std::vector<double> heights;
-  for (const glm::dvec3& p : track.com_in_world) heights.push_back(p.y);
-  SmoothingChannels channels;
-  channels.splines.emplace_back(heights.size(), SplineOptions{3});
-  channels.samples.emplace_back(heights);
-  channels.spline_of.push_back(0);
-  const std::vector<std::vector<std::size_t>> groups{{0}};
-  const ChosenPenalties chosen = choose_penalties(channels, groups);
-  channels.splines[0].set_penalty(std::max(
-      chosen.groups[0], penalty_of_half_power(kLargestCutoff_hz, track.rate.hz, {3})));
-  return {channels.splines[0], heights, track.rate.hz};
-}
-
 std::optional<CapturedPush> captured_push(const JumpClip& clip,
-                                          const SplineCurve& height,
                                           double start_s,
                                           double end_s,
                                           bool from_touchdown) {
@@ -69,28 +48,18 @@ std::optional<CapturedPush> captured_push(const JumpClip& clip,
     out.lowest_m = height_m;
     out.lowest_at = (at_s - start_s) / (end_s - start_s);
   }
-  if (out.time_s.size() < kMinFrames) return std::nullopt;
-  const double duration_s = end_s - start_s;
-  out.ends = {height.at(start_s, 0),
-              height.at(start_s, 1),
-              height.at(end_s, 0),
-              height.at(end_s, 1),
-              duration_s};
-  const auto count =
-      static_cast<std::size_t>(std::ceil(kForcesPerFrame * duration_s * clip.hz())) + 2;
-  std::vector<double> force;
-  for (std::size_t k = 0; k < count; ++k) {
-    const double share = static_cast<double>(k) / static_cast<double>(count - 1);
-    const double at_s = std::min(start_s + share * duration_s, end_s);
-    force.push_back(std::max(0.0, height.at(at_s, 2) + out.ends.gravity_m_s2));
-  }
-  out.reference = dynamics::make_push_reference(duration_s, std::move(force));
+  auto fit = dynamics::fit_push(out.time_s,
+                                out.height_m,
+                                end_s - start_s,
+                                {.from_flight = from_touchdown, .to_flight = true});
+  if (!fit) return std::nullopt;
+  out.ends = fit->ends;
+  out.reference = std::move(fit->reference);
   return out;
 }
 
 std::vector<CapturedPush> captured_pushes(const JumpClip& clip) {
   std::vector<CapturedPush> out;
-  const SplineCurve height = smoothed_height(clip.track);
   int number = 0;
   for (const dynamics::Jump& jump : dynamics::find_jumps(clip.track)) {
     double start_s = jump.start.time_s;
@@ -104,7 +73,7 @@ std::vector<CapturedPush> captured_pushes(const JumpClip& clip) {
       start_s = kDropJumpTouchdown_s;
       end_s = kDropJumpTakeoff_s;
     }
-    auto push = captured_push(clip, height, start_s, end_s, from_touchdown);
+    auto push = captured_push(clip, start_s, end_s, from_touchdown);
     if (!push) continue;
     if (clip.kind == "run") push->name += " step " + std::to_string(++number);
     out.push_back(*std::move(push));

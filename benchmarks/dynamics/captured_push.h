@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -11,7 +11,6 @@
 #include "dynamics/push/force_push.h"
 
 #include "benchmarks/dynamics/jump_clips.h"
-#include "core/signal/spline_curve.h"
 
 namespace marey {
 
@@ -20,7 +19,7 @@ struct CapturedPush {
   std::string name;
   std::string person;
   std::string kind;  ///< "jump" or "run".
-  /// State of the smoothed curve at both ends; accelerations are not set.
+  /// States of the fitted curve at both ends; accelerations are not set.
   dynamics::PushEnds ends;
   dynamics::PushReference reference;  ///< Two samples per frame.
   bool from_touchdown = false;
@@ -30,13 +29,8 @@ struct CapturedPush {
   double lowest_m = 0.0;
 };
 
-/// Returns the height of the centre of mass as a quintic smoothing spline (penalty by
-/// cross-validation, cut-off at most 10 Hz, as in JumpReference).
-[[nodiscard]] SplineCurve smoothed_height(const BodyTrack& track);
-
-/// Returns the support from start_s to end_s. nullopt: fewer than 8 frames.
+/// Returns the support from start_s to end_s, fitted by fit_push(). nullopt: too short.
 [[nodiscard]] std::optional<CapturedPush> captured_push(const JumpClip& clip,
-                                                        const SplineCurve& height,
                                                         double start_s,
                                                         double end_s,
                                                         bool from_touchdown);

@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "dynamics/push/thesis_push.h"
-#include "dynamics/push/thesis_rules.h"
 
 namespace marey::dynamics {
 namespace {
@@ -38,11 +37,11 @@ struct Panel {
   }
 };
 
-const Panel kSpacePanel{70.0, 76.0, 380.0, 356.0, 0.36, 0.84, -400.0, -100.0};
+const Panel kSpacePanel{70.0, 76.0, 380.0, 356.0, 0.4, 0.82, -420.0, -90.0};
 const Panel kHeightPanel{540.0, 76.0, 310.0, 166.0, 0.0, 0.7, -360.0, 100.0};
-const Panel kPushPanel{540.0, 286.0, 310.0, 146.0, 0.0, 0.7, -0.5, 5.0};
+const Panel kPushPanel{540.0, 286.0, 310.0, 146.0, 0.0, 0.7, -0.5, 3.5};
 
-/// Colours of the rules: of an area and of a line.
+/// A rule in words, and the colours of its area and its line.
 struct RuleColour {
   const char* words;
   const char* area;
@@ -50,19 +49,21 @@ struct RuleColour {
 };
 const std::array<RuleColour, 3> kRules{
     {{"the push would be negative", "#cfe1f2", "#1f6fb0"},
-     {"it would rise before P2", "#fbe3bb", "#c47f00"},
-     {"it would sink after P2", "#d6ecd0", "#3f8f34"}}};
-constexpr const char* kTwoRules = "#e4e4e4";
+     {"the body would rise before P2", "#fbe3bb", "#c47f00"},
+     {"the body would sink after P2", "#d6ecd0", "#3f8f34"}}};
+constexpr const char* kNoHeight = "#e4e4e4";
 
+/// A lowest point. B is on the border where the push touches 0.
 struct Choice {
   const char* name;
   double at;
   double lowest_m;
   const char* colour;
+  double name_below;  ///< Place of its name under its dot, in the picture.
 };
-const std::array<Choice, 3> kChoices{{{"A", 0.50, -0.165, "#b3263a"},
-                                      {"B", 0.60, -0.325, "#222222"},
-                                      {"C", 0.73, -0.150, "#7a3fa6"}}};
+const std::array<Choice, 3> kChoices{{{"A", 0.50, -0.165, "#b3263a", 19.0},
+                                      {"B", 0.59, -0.3275, "#222222", -10.0},
+                                      {"C", 0.73, -0.150, "#7a3fa6", -10.0}}};
 
 std::string printed(const char* format, double a, double b = 0.0) {
   std::array<char, 96> text{};
@@ -125,8 +126,11 @@ void draw_axes(Picture& picture,
   for (const double y : y_ticks) {
     picture.line(
         panel.left - 4.0, panel.y(y), panel.left, panel.y(y), "stroke=\"#222222\"");
-    picture.text(
-        panel.left - 8.0, panel.y(y) + 4.0, printed("%g", y), " text-anchor=\"end\"");
+    const std::string minus = y < 0.0 ? "&#8722;" : "";
+    picture.text(panel.left - 8.0,
+                 panel.y(y) + 4.0,
+                 minus + printed("%g", std::abs(y)),
+                 " text-anchor=\"end\"");
   }
   picture.box(panel.left,
               panel.top,
@@ -135,8 +139,7 @@ void draw_axes(Picture& picture,
               "fill=\"none\" stroke=\"#222222\"");
 }
 
-/// One column of the picture: the heights that its rules leave, also where they exclude
-/// each other.
+/// One column of the search space, in places of the picture.
 struct PictureColumn {
   double x = 0.0;
   double low = 0.0;
@@ -146,25 +149,16 @@ struct PictureColumn {
 };
 
 std::vector<PictureColumn> columns_of(const PushEnds& ends) {
+  constexpr int kColumns = 700;
   std::vector<PictureColumn> columns;
-  const auto unit = unit_ends(ends);
-  if (!unit) return columns;
-  const Panel& panel = kSpacePanel;
-  for (int k = 0; k <= 4 * static_cast<int>(panel.width) / 3; ++k) {
-    const double s = panel.x_from + (panel.x_to - panel.x_from) * k * 0.75 / panel.width;
-    const auto heights = ruled_heights(*unit, s);
-    if (!heights) continue;
-    const auto rule_of = [&](const BindingHeight& end) {
-      return end.of_force ? std::size_t{0} : end.at < s ? std::size_t{1} : std::size_t{2};
-    };
-    const auto y_of = [&](const BindingHeight& end) {
-      return std::clamp(panel.y(1e3 * end.height_m), panel.top, panel.top + panel.height);
-    };
-    columns.push_back({panel.x(s),
-                       y_of(heights->low),
-                       y_of(heights->high),
-                       rule_of(heights->low),
-                       rule_of(heights->high)});
+  for (const SpaceColumn& c : search_space(ends, kColumns)) {
+    const HeightBound& low = c.heights.low;
+    const HeightBound& high = c.heights.high;
+    columns.push_back({kSpacePanel.x(c.lowest_at),
+                       kSpacePanel.y(1e3 * low.height_m),
+                       kSpacePanel.y(1e3 * high.height_m),
+                       static_cast<std::size_t>(low.rule),
+                       static_cast<std::size_t>(high.rule)});
   }
   return columns;
 }
@@ -192,9 +186,7 @@ void fill_outside(Picture& picture,
     std::vector<std::pair<double, double>> points{{columns[first].x, edge}};
     for (std::size_t k = first; k <= last; ++k) {
       const PictureColumn& c = columns[k];
-      // Where the rules exclude each other both areas end at the nearer of their bounds.
-      points.emplace_back(c.x,
-                          is_above ? std::min(c.high, c.low) : std::max(c.high, c.low));
+      points.emplace_back(c.x, is_above ? c.high : c.low);
     }
     points.emplace_back(columns[last].x, edge);
     picture.shape(points,
@@ -209,30 +201,27 @@ void draw_space(Picture& picture, const PushEnds& ends) {
               panel.top,
               panel.width,
               panel.height,
-              std::string("fill=\"") + kTwoRules + "\"");
-  std::vector<PictureColumn> inside;
-  for (const PictureColumn& c : columns)
-    if (c.low >= c.high) inside.push_back(c);
+              std::string("fill=\"") + kNoHeight + "\"");
   fill_outside(picture, columns, true);
   fill_outside(picture, columns, false);
   // The space itself.
   std::vector<std::pair<double, double>> outline;
-  for (const PictureColumn& c : inside) outline.emplace_back(c.x, c.high);
-  for (std::size_t k = inside.size(); k-- > 0;)
-    outline.emplace_back(inside[k].x, inside[k].low);
+  for (const PictureColumn& c : columns) outline.emplace_back(c.x, c.high);
+  for (std::size_t k = columns.size(); k-- > 0;)
+    outline.emplace_back(columns[k].x, columns[k].low);
   picture.shape(outline, "fill=\"#ffffff\"");
   for (const bool is_high : {true, false}) {
     const auto rule_of = [&](const PictureColumn& c) {
       return is_high ? c.high_rule : c.low_rule;
     };
-    for_runs(inside, rule_of, [&](std::size_t first, std::size_t last) {
+    for_runs(columns, rule_of, [&](std::size_t first, std::size_t last) {
       std::vector<std::pair<double, double>> points;
       for (std::size_t k = first; k <= last; ++k)
-        points.emplace_back(inside[k].x, is_high ? inside[k].high : inside[k].low);
+        points.emplace_back(columns[k].x, is_high ? columns[k].high : columns[k].low);
       picture.shape(points,
                     std::string("fill=\"none\" stroke-width=\"2.5\" "
                                 "stroke-linejoin=\"round\" stroke=\"") +
-                        kRules[rule_of(inside[first])].line + "\"");
+                        kRules[rule_of(columns[first])].line + "\"");
     });
   }
   for (const Choice& choice : kChoices) {
@@ -257,13 +246,11 @@ void draw_curves(Picture& picture, const PushEnds& ends) {
               kPushPanel.width,
               kPushPanel.top + kPushPanel.height - kPushPanel.y(0.0),
               std::string("fill=\"") + kRules[0].area + "\"");
-  for (const double y : {0.0}) {
-    picture.line(kHeightPanel.left,
-                 kHeightPanel.y(y),
-                 kHeightPanel.left + kHeightPanel.width,
-                 kHeightPanel.y(y),
-                 "stroke=\"#bbbbbb\"");
-  }
+  picture.line(kHeightPanel.left,
+               kHeightPanel.y(0.0),
+               kHeightPanel.left + kHeightPanel.width,
+               kHeightPanel.y(0.0),
+               "stroke=\"#bbbbbb\"");
   picture.line(kPushPanel.left,
                kPushPanel.y(1.0),
                kPushPanel.left + kPushPanel.width,
@@ -287,10 +274,17 @@ void draw_curves(Picture& picture, const PushEnds& ends) {
     const double lowest_s = choice.at * ends.duration_s;
     picture.dot(
         kHeightPanel.x(lowest_s), kHeightPanel.y(1e3 * choice.lowest_m), choice.colour);
+    picture.text(kHeightPanel.x(lowest_s),
+                 kHeightPanel.y(1e3 * choice.lowest_m) + choice.name_below,
+                 choice.name,
+                 std::string(" text-anchor=\"middle\" font-weight=\"bold\" fill=\"") +
+                     choice.colour + "\"");
   }
+  picture.text(kHeightPanel.x(0.008), kHeightPanel.y(22.0), "P1");
+  picture.text(
+      kHeightPanel.x(0.7) - 8.0, kHeightPanel.y(66.0), "P3", " text-anchor=\"end\"");
   draw_axes(picture, kHeightPanel, {}, {-300, -200, -100, 0, 100});
-  draw_axes(
-      picture, kPushPanel, {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7}, {0, 1, 2, 3, 4, 5});
+  draw_axes(picture, kPushPanel, {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7}, {0, 1, 2, 3});
 }
 
 void draw_words(Picture& picture) {
@@ -302,15 +296,15 @@ void draw_words(Picture& picture) {
                 12.0,
                 std::string("fill=\"") + rule.area + "\" stroke=\"" + rule.line + "\"");
     picture.text(x + 18.0, 23.5, rule.words);
-    x += 206.0;
+    x += 46.0 + 6.3 * static_cast<double>(std::string(rule.words).size());
   }
   picture.box(
-      x, 13.0, 12.0, 12.0, std::string("fill=\"") + kTwoRules + "\" stroke=\"#888888\"");
-  picture.text(x + 18.0, 23.5, "two of them");
+      x, 13.0, 12.0, 12.0, std::string("fill=\"") + kNoHeight + "\" stroke=\"#888888\"");
+  picture.text(x + 18.0, 23.5, "no P2 at this time");
   picture.text(kSpacePanel.left, 62.0, "Search space of the lowest point P2");
   picture.text(
       kHeightPanel.left, 62.0, "Height of the centre of mass over its start, mm");
-  picture.text(kPushPanel.left, 276.0, "Push, g");
+  picture.text(kPushPanel.left, 276.0, "Push over the weight");
   picture.text(kSpacePanel.left + 0.5 * kSpacePanel.width,
                kHeight - 20.0,
                "time of P2, as a share of the push",

@@ -43,26 +43,22 @@ PushEnds thesis_ends(const CapturedPush& push) {
   return out;
 }
 
-/// The polynomial through the captured lowest point, with the better of two accelerations
-/// at take-off: 0 and free fall.
-std::optional<HeightError> represent_by_polynomial(const CapturedPush& push) {
-  std::optional<HeightError> best;
-  for (const bool falls : {false, true}) {
-    PushEnds ends = thesis_ends(push);
-    if (falls) ends.end_m_s2 = -ends.gravity_m_s2;
-    if (!(push.lowest_at > 0.0 && push.lowest_at < 1.0)) continue;
-    const auto law = dynamics::thesis_push(ends, push.lowest_at, push.lowest_m);
-    if (!law) continue;
-    const HeightError error = error_of(push, *law);
-    if (!best || error.rms_mm < best->rms_mm) best = error;
-  }
-  return best;
+/// The polynomial through the captured lowest point, with acceleration 0 at take-off, or
+/// with free fall there.
+std::optional<HeightError> represent_by_polynomial(const CapturedPush& push,
+                                                   bool falls_at_end) {
+  PushEnds ends = thesis_ends(push);
+  if (falls_at_end) ends.end_m_s2 = -ends.gravity_m_s2;
+  if (!(push.lowest_at > 0.0 && push.lowest_at < 1.0)) return std::nullopt;
+  const auto law = dynamics::thesis_push(ends, push.lowest_at, push.lowest_m);
+  if (!law) return std::nullopt;
+  return error_of(push, *law);
 }
 
 void print_representation(const std::vector<CapturedPush>& pushes) {
   std::printf("Represented, rms mm (ends given)\n%-22s %8s", "push", "duration");
   for (const int n : {8, 10, 12, 14}) std::printf(" %5d", n);
-  std::printf("  thesis rms, worst\n");
+  std::printf("  thesis (acceleration 0, free fall at take-off)\n");
   double worst_mm = 0.0;
   for (const CapturedPush& push : pushes) {
     if (push.kind == "run") continue;
@@ -72,8 +68,10 @@ void print_representation(const std::vector<CapturedPush>& pushes) {
       if (n == dynamics::kForceCoefficients) worst_mm = std::max(worst_mm, rms_mm);
       std::printf(" %5.2f", rms_mm);
     }
-    const auto thesis = represent_by_polynomial(push);
-    if (thesis) std::printf("  %5.1f  %5.1f", thesis->rms_mm, thesis->worst_mm);
+    for (const bool falls : {false, true}) {
+      const auto thesis = represent_by_polynomial(push, falls);
+      std::printf("  %6.1f", thesis ? thesis->rms_mm : NAN);
+    }
     std::printf("\n");
   }
   std::printf("bar 4: %.2f mm with 12 coefficients, at most 1.5: %s\n",
@@ -199,6 +197,12 @@ void print_predictions(const std::vector<CapturedPush>& pushes) {
     }
     if (pairs == 0) continue;
     std::printf("%s: %d pairs\n", group.c_str(), pairs);
+    if (group == "DJ, jump" && !force.all_mm.empty()) {
+      const double worst = *std::max_element(force.all_mm.begin(), force.all_mm.end());
+      std::printf("bar 5: %.1f mm, at most 8: %s\n",
+                  worst,
+                  worst <= 8.0 && force.declined == 0 ? "met" : "MISSED");
+    }
     force.print("force law");
     thesis.print("thesis law");
     copy.print("stretched copy");
@@ -250,23 +254,25 @@ void print_cost(const std::vector<CapturedPush>& pushes) {
         const PushEnds ends = with_rise(push.ends, ratio);
         dynamics::ForceLimits limits;
         if (limited) limits.max_force_m_s2 = 3.0 * ends.gravity_m_s2;
-        constexpr int kRepeats = 300;
-        int derived = 0;
-        double min_force = 1.0;
-        double max_force = 0.0;
-        const Stopwatch watch;
-        for (int i = 0; i < kRepeats; ++i) {
-          const auto law = dynamics::derive_push(push.reference, ends, limits);
-          if (!law) break;
-          ++derived;
+        // The least of several batches: other programs share the machine.
+        constexpr int kRepeats = 50;
+        double us = 1e9;
+        bool is_derived = true;
+        for (int batch = 0; batch < 10; ++batch) {
+          const Stopwatch watch;
+          for (int i = 0; i < kRepeats; ++i) {
+            is_derived =
+                is_derived && dynamics::derive_push(push.reference, ends, limits);
+          }
+          us = std::min(us, 1e6 * watch.seconds() / kRepeats);
         }
-        const double us = 1e6 * watch.seconds() / kRepeats;
-        if (derived < kRepeats) continue;
+        if (!is_derived) continue;
         const auto law = dynamics::derive_push(push.reference, ends, limits);
-        min_force = law->extremes().min.force_m_s2;
-        max_force = law->extremes().max.force_m_s2;
-        const bool bounded = (min_force < 1e-4 && ratio != 1.0) ||
-                             (limited && max_force > *limits.max_force_m_s2 - 1e-4);
+        const auto [min, max] = law->extremes();
+        // A take-off has force 0 by itself.
+        const bool is_inside = min.at > 0.02 && min.at < 0.98;
+        const bool bounded = (is_inside && min.force_m_s2 < 1e-4 && ratio != 1.0) ||
+                             (limited && max.force_m_s2 > *limits.max_force_m_s2 - 1e-4);
         (bounded ? bound_us : free_us).push_back(us);
       }
     }

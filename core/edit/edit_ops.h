@@ -192,7 +192,7 @@ enum class EditPushLaw { kForce, kThesis };
 /// Lowest point of a push, for EditPushLaw::kThesis.
 struct EditLowestPoint {
   double at = 0.5;        ///< Share of the push's duration, within (0, 1).
-  double height_m = 0.0;  ///< Of the centre of mass, world Y.
+  double height_m = 0.0;  ///< Height of the centre of mass, world Y.
   bool operator==(const EditLowestPoint&) const = default;
 };
 /// Makes one jump of the motion higher, longer or different (`marey jump`). Members

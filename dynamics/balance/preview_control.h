@@ -27,8 +27,8 @@ struct PreviewOptions {
 struct PreviewGains {
   double of_error = 0.0;
   std::array<double, 3> of_state{};
-  /// One per frame of the preview. The second half includes the gains of all
-  /// later frames.
+  /// One per frame of the preview. The second half includes the gains of all later
+  /// frames.
   std::vector<double> of_preview;
 };
 
@@ -90,7 +90,7 @@ class PreviewBalance {
 
  private:
   PreviewControl control_;
-  std::vector<glm::dvec2> known_;  // The delayed frame and the following ones.
+  std::vector<glm::dvec2> known_;  // From the delayed frame on.
   std::size_t received_ = 0;
 };
 

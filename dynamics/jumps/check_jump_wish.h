@@ -4,7 +4,6 @@
 
 #include "dynamics/jumps/jump_reference.h"
 #include "dynamics/jumps/jump_wish.h"
-#include "dynamics/jumps/plan_jump.h"
 
 #include "core/base/result.h"
 

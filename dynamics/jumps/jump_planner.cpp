@@ -129,8 +129,9 @@ Result<double> JumpPlanner::takeoff_speed() const {
         fall_m / *wish_.airtime_s + 0.5 * gravity_m_s2_ * *wish_.airtime_s;
     if (speed_m_s) {
       const double root = *speed_m_s * *speed_m_s - 2.0 * gravity_m_s2_ * fall_m;
+      // A negative root is refused by solve_flight().
       const double airtime_s =
-          root < 0.0 ? 0.0 : (*speed_m_s + std::sqrt(root)) / gravity_m_s2_;
+          root < 0.0 ? *wish_.airtime_s : (*speed_m_s + std::sqrt(root)) / gravity_m_s2_;
       if (std::abs(airtime_s - *wish_.airtime_s) > kSameTime_s) {
         return bad_input(
             "airtime_s",

@@ -5,7 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "dynamics/jumps/plan_jump.h"
+#include "dynamics/jumps/jump_plan.h"
+#include "dynamics/jumps/jump_wish.h"
 #include <glm/vec3.hpp>
 
 #include "core/base/result.h"
@@ -48,7 +49,7 @@ class JumpPlanner {
   const PlanJumpOptions& options_;
   double gravity_m_s2_;
   double strength_m_s2_;
-  double time_scale_;  ///< Of captured durations, where nothing is wished.
+  double time_scale_;  ///< Factor of captured durations without a wish.
   double push_s_;
   ComState takeoff_;
   std::optional<ComState> touchdown_{};

@@ -19,11 +19,11 @@
 namespace marey::dynamics {
 
 /// A captured jump, prepared for changes: the forces of its push and landing, the path of
-/// the centre of mass, and what these do not explain.
+/// the centre of mass, and the rest that these do not explain.
 ///
 /// The path is a model plus a residual: the push from the state at P1 by the captured
-/// force, the parabola of the flight, the landing by the captured force. The residual is
-/// what the capture adds (errors of joints and masses, some millimetres).
+/// force, the parabola of the flight, the landing by the captured force. The residual
+/// holds errors of the capture's joints and masses, some millimetres.
 class JumpReference {
  public:
   /// Forces are the second derivative of a quintic smoothing spline through the centre of

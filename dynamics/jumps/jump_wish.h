@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "dynamics/push/push_ends.h"
 #include <glm/vec3.hpp>
 
 namespace marey::dynamics {
@@ -49,6 +50,19 @@ struct JumpTraits {
   std::optional<double> strength_g{};
   std::optional<double> deepest_m{};  ///< Lowest height of the centre of mass.
   double friction = 0.8;              ///< Horizontal force per vertical force, at most.
+};
+
+/// Choices of a plan that are not wishes.
+struct PlanJumpOptions {
+  double gravity_m_s2 = kStandardGravity_m_s2;  ///< 0.5 to 30.
+  PushLawKind law = PushLawKind::kForce;
+  /// Lowest point of the thesis law; nullopt: the captured one.
+  std::optional<LowestPoint> lowest{};
+  /// The flight becomes a parabola although nothing is wished.
+  bool ballistic = false;
+  /// The duration of the whole jump changes by a multiple of this, so that the frames
+  /// after it stay frames. 0: by any amount.
+  double grid_s = 0.0;
 };
 
 }  // namespace marey::dynamics

@@ -18,7 +18,7 @@ namespace marey::dynamics {
 struct SupportReference {
   ComState start;
   ComState end;
-  double gravity_m_s2 = kStandardGravity_m_s2;  ///< Of the captured motion.
+  double gravity_m_s2 = kStandardGravity_m_s2;  ///< Gravity of the captured motion.
   std::array<PushReference, 3> axes;            ///< X, Y (with gravity), Z.
   double peak_g = 0.0;  ///< Largest vertical force, in captured gravity.
 

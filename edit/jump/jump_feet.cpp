@@ -17,13 +17,13 @@ namespace {
 
 /// A foot that bears within this time of take-off or touch-down bears until then.
 constexpr double kBearsWithin_s = 0.15;
-/// Beside a flight a foot is held or free, without a fade. There the body is on its
+/// Next to a flight a foot is held or free, without a fade. There the body is on its
 /// captured place over the foot, so both are the same; a fade would bend straight knees.
 constexpr double kFlightFade_s = 0.0;
-/// Fade of the hold beside other stances.
+/// Fade of the hold before and after other stances.
 constexpr double kSwingFade_s = 0.16;
-/// Time beside a flight in which the centre of mass comes before the feet: it is on its
-/// plan when the flight begins and ends.
+/// Time before and after a flight in which the centre of mass comes before the feet: it
+/// is on its plan when the flight begins and ends.
 constexpr double kGiveWay_s = 0.08;
 /// Time after touch-down in which heels may still be up.
 constexpr double kHeelDown_s = 0.15;

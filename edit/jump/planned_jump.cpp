@@ -63,7 +63,11 @@ Result<FoundJumps> find_state_jumps(const JumpOp& op,
   dynamics::FindJumpsOptions options = find_options(op, state);
   if (op.push_start) {
     const auto frame = resolve_moment(state, *op.push_start);
-    if (!frame) return frame.error();
+    if (!frame) {
+      Error error = frame.error();
+      error.where = "push_start";
+      return error;
+    }
     options.start_s = *frame / state.motion.rate.hz;
   }
   const double hz = state.motion.rate.hz;

@@ -59,7 +59,7 @@ TEST(LiveZmp, IsAbsentInFlightAndRightAfterAReset) {
   // A long gap leaves too few positions.
   zmp.step({0.0, 1.0, 0.0}, 0.5);
   EXPECT_FALSE(zmp.on_floor(0.0));
-  // So do slow frames: two within the window.
+  // Slow frames leave two positions within the window.
   for (int i = 0; i < 10; ++i) zmp.step({0.0, 1.0, 0.0}, 0.15);
   EXPECT_FALSE(zmp.on_floor(0.0));
 }

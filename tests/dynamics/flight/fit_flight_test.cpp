@@ -13,7 +13,7 @@
 namespace marey::dynamics {
 namespace {
 
-using testing::Dice;
+using marey::testing::Dice;
 
 /// A parabola between two times, sampled at a rate from time 0 on.
 struct ThrownPoint {

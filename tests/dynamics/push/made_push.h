@@ -10,7 +10,7 @@ namespace marey::dynamics {
 /// with force 0.
 struct MadePush {
   PushReference reference;
-  PushEnds ends;  ///< Of the reference itself, from height 0.
+  PushEnds ends;  ///< Ends of the reference itself, from height 0.
   double peak_m_s2 = 0.0;
 };
 [[nodiscard]] MadePush made_push(unsigned seed);

@@ -61,7 +61,6 @@ TEST(ThesisPush, EqualsTheLinearSystemToABillionth) {
     }
   }
   EXPECT_LT(worst, 1e-9);
-  RecordProperty("worst_relative_error", std::to_string(worst));
 }
 
 TEST(ThesisPush, HasTheStatesOfItsEndsAndRestsAtItsLowestPoint) {

@@ -29,7 +29,7 @@ BentLeg bent_leg(double thigh_m, double shank_m, double knee_rad) {
   return out;
 }
 
-TEST(BendLeg, BringsTheAnkleWhereverTheBonesReach) {
+TEST(BendLeg, BringsTheAnkleToAnyPlaceWithinReach) {
   testing::Dice dice(1);
   for (int k = 0; k < 2000; ++k) {
     const double thigh_m = dice.between(0.1, 0.7);

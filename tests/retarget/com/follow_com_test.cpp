@@ -245,6 +245,25 @@ TEST(FollowCom, RaisesTheHeelAboutTheBallBeforeTheCentreOfMassFallsShort) {
   EXPECT_LT(at_limit, raised / 10);
 }
 
+TEST(FollowCom, KeepsTheTargetAndLeavesThePlaceWhereTheRootDoesNotGiveWay) {
+  for (int seed = 0; seed < 100; ++seed) {
+    const HeavyBody body = heavy_body(static_cast<std::uint64_t>(seed));
+    testing::Dice dice(5500 + static_cast<std::uint64_t>(seed));
+    const Pose reference = squatting(body, dice.between(0.4, 1.2), dice);
+    const glm::dvec3 target =
+        body.com(reference) + glm::dvec3(0.0, 0.5 * body.map.leg_length_m, 0.0);
+    auto feet = own_feet(body, reference, 1.0, 0.0);
+    for (FootGoal& foot : feet) foot.root_gives_way = 0.0;
+    const Followed out = followed(body, reference, target, feet);
+    EXPECT_LT(glm::distance(body.com(out.pose), target), 1e-8) << seed;
+    EXPECT_LT(stretched_m(body, out.pose), 1e-12) << seed;
+    EXPECT_GT(out.report.worst_foot_m, 0.05 * body.map.leg_length_m) << seed;
+    for (int side = 0; side < 2; ++side) {
+      EXPECT_LE(extension(body, out.pose, side), 0.995 + 1e-9) << seed;
+    }
+  }
+}
+
 TEST(FollowCom, IsMirroredWithItsBody) {
   for (int seed = 0; seed < 100; ++seed) {
     testing::Dice dice(6000 + static_cast<std::uint64_t>(seed));

@@ -20,7 +20,7 @@ constexpr double kHeelRise_m = 0.09;
 constexpr double kHeelRise_s = 0.12;
 constexpr double kFlatten_s = 0.06;
 
-constexpr double kDownShare = 0.35;  // Of gravity, at the start of a countermovement.
+constexpr double kDownShare = 0.35;  // Share of gravity at the start of a countermovement.
 constexpr double kLeavingRamp_s = 0.04;
 constexpr double kMeetingRamp_s = 0.03;
 
@@ -261,18 +261,35 @@ class JumpMaker {
       const double t = k / options_.rate_hz;
       out_.track.com_in_world.push_back(disturbed({0.0, up_.at(t), ahead_.at(t)}));
       const Foot foot = foot_at(t);
+      const auto add = [&](std::vector<glm::dvec3>& points, const glm::dvec3& p) {
+        points.push_back(disturbed(turned_in_flight(t, p)));
+      };
       for (std::size_t side = 0; side < 2; ++side) {
         const bool hangs = options_.one_footed && side == 1;
         const double x = (side == 0 ? 0.1 : -0.1) * size_;
         const double y = foot.tip_m + (hangs ? 0.3 * size_ : 0.0);
         const double z = foot.z - (hangs ? 0.3 * size_ : 0.0);
         SoleTrack& sole = out_.track.soles[side];
-        sole.tip_in_world.push_back(disturbed({x, y, z + 0.13 * size_}));
-        sole.ball_in_world.push_back(
-            disturbed({x, y + 0.3 * foot.heel_m, z + 0.05 * size_}));
-        sole.heel_in_world.push_back(disturbed({x, y + foot.heel_m, z - 0.13 * size_}));
+        add(sole.tip_in_world, {x, y, z + 0.13 * size_});
+        add(sole.ball_in_world, {x, y + 0.3 * foot.heel_m, z + 0.05 * size_});
+        add(sole.heel_in_world, {x, y + foot.heel_m, z - 0.13 * size_});
       }
     }
+  }
+
+  [[nodiscard]] glm::dvec3 turned_in_flight(double time_s, const glm::dvec3& p) const {
+    if (!options_.somersault) return p;
+    for (const MadeFlightTruth& one : out_.flights) {
+      if (time_s < one.takeoff_s || time_s > one.landing_s) continue;
+      const double share = (time_s - one.takeoff_s) / (one.landing_s - one.takeoff_s);
+      const double angle = 2.0 * 3.14159265358979 * smooth(share);
+      const double y = p.y - up_.at(time_s);
+      const double z = p.z - ahead_.at(time_s);
+      return {p.x,
+              up_.at(time_s) + y * std::cos(angle) - z * std::sin(angle),
+              ahead_.at(time_s) + y * std::sin(angle) + z * std::cos(angle)};
+    }
+    return p;
   }
 
   const std::vector<MadeFlight>& flights_;

@@ -29,6 +29,7 @@ struct MadeJumpOptions {
   double noise_m = 0.0;     ///< Standard deviation per axis, of every point.
   std::uint64_t seed = 1;
   bool one_footed = false;  ///< The right foot hangs behind the body.
+  bool somersault = false;  ///< The feet turn once about the centre of mass in flight.
   double first_floor_m = 0.0;
 };
 
@@ -43,7 +44,7 @@ struct MadeFlightTruth {
   glm::dvec3 landing_in_world{0.0};
   glm::dvec3 landing_m_s{0.0};
   double apex_m = 0.0;
-  double floor_m = 0.0;  ///< Of the take-off.
+  double floor_m = 0.0;  ///< Floor of the take-off.
   double landing_floor_m = 0.0;
 };
 
