@@ -49,6 +49,7 @@ struct JumpFigures {
   double momentum = 0.0;
   double turn_deg = 0.0;
   double short_leg_mm = 0.0;
+  double plan_us = 0.0;
   int cases = 0;
   int refused = 0;
 };
@@ -215,9 +216,25 @@ std::vector<JumpCase> wishes_of(const dynamics::Jump& jump) {
   return out;
 }
 
+/// Returns the least time of plan_jump() for a wish, of 50 calls. [us]
+double plan_us(const JumpOp& wish, const edit::FoundJumps& found, FrameRate rate) {
+  const auto reference = edit::jump_reference(found);
+  if (!reference) return 0.0;
+  double least_us = 0.0;
+  for (int k = 0; k < 50; ++k) {
+    const auto from = std::chrono::steady_clock::now();
+    const auto plan = edit::plan_of_op(wish, **reference, rate);
+    const std::chrono::duration<double, std::micro> took =
+        std::chrono::steady_clock::now() - from;
+    if (plan && (k == 0 || took.count() < least_us)) least_us = took.count();
+  }
+  return least_us;
+}
+
 void print_row(const std::string& name, const JumpFigures& f) {
   std::printf(
-      "%-34s %3d %3d %7.3f %7.3f %7.3f %8.1e %7.3f %7.3f %7.4f %6.2f %7.4f %5.2f %6.1f\n",
+      "%-34s %3d %3d %7.3f %7.3f %7.3f %8.1e %7.3f %7.3f %7.4f %6.2f %7.4f %5.2f %6.1f "
+      "%6.1f\n",
       name.c_str(),
       f.cases,
       f.refused,
@@ -231,7 +248,8 @@ void print_row(const std::string& name, const JumpFigures& f) {
       f.jerk_ratio,
       f.momentum,
       f.turn_deg,
-      f.short_leg_mm);
+      f.short_leg_mm,
+      f.plan_us);
 }
 
 void judge_clip(const JumpClip& clip, const BodyScale& body, bool verbose) {
@@ -279,6 +297,8 @@ void judge_clip(const JumpClip& clip, const BodyScale& body, bool verbose) {
   for (JumpCase wanted : wishes_of(found->jumps[best])) {
     wanted.wish.jump = static_cast<int>(best) + 1;
     const int refused = figures.refused;
+    figures.plan_us =
+        std::max(figures.plan_us, plan_us(wanted.wish, *found, state->motion.rate));
     JumpFigures one;
     judge.judge(wanted, one);
     judge.judge(wanted, figures);
@@ -308,7 +328,7 @@ int main(int argc, char** argv) {
     std::fputs("measure_jump_edits DATA [CLIP]\n", stderr);
     return 2;
   }
-  std::printf("%-34s %3s %3s %7s %7s %7s %8s %7s %7s %7s %6s %7s %5s %6s\n",
+  std::printf("%-34s %3s %3s %7s %7s %7s %8s %7s %7s %7s %6s %7s %5s %6s %6s\n",
               "clip, body",
               "n",
               "no",
@@ -322,7 +342,8 @@ int main(int argc, char** argv) {
               "jerk x",
               "L sd",
               "turn",
-              "leg mm");
+              "leg mm",
+              "us");
   for (const marey::JumpClip& clip : marey::jump_clips(argv[1])) {
     if (argc > 2 && clip.name.find(argv[2]) == std::string::npos) continue;
     if (argc <= 2 && clip.kind == "walk") continue;

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/balance/preview_control.h"
 #include "edit/balance/shift_zmp.h"
 #include "edit/balance/zmp_track.h"
 #include "edit/state/edit_state.h"
@@ -35,6 +36,9 @@ constexpr std::array kZmpBodies{BodyScale{"0.6 m", 0.34, 0.34, 0.34},
                                 BodyScale{"long trunk", 0.9, 1.1, 1.0},
                                 BodyScale{"2.5 m", 1.42, 1.42, 1.42}};
 constexpr double kLoadedJudge_g = 0.2;
+constexpr double kNear_s = 0.06;
+/// Largest wanted displacement of a point in a stream.
+constexpr double kMaxStream_m = 0.3;
 /// Distances up to this are rounding.
 constexpr double kInside_m = 1e-6;
 
@@ -46,6 +50,10 @@ struct JudgedFrames {
   int far_outside = 0;  ///< By more than 10 mm.
   double worst_mm = 0.0;
   int worst_frame = -1;
+  // Causes of frames outside, each frame by the first that applies.
+  int near_end = 0;       ///< Within 60 ms of an end of the clip.
+  int near_unloaded = 0;  ///< Within 60 ms of a frame without load or without support.
+  int light = 0;          ///< The force is below half of the weight.
 };
 
 JudgedFrames judged(const edit::EditState& state,
@@ -66,6 +74,21 @@ JudgedFrames judged(const edit::EditState& state,
     if (*frames[t].outside_m <= kInside_m) continue;
     ++out.outside;
     if (*frames[t].outside_m > 0.01) ++out.far_outside;
+    const auto near = static_cast<std::size_t>(std::lround(kNear_s * motion.rate.hz));
+    const std::size_t from = t < near ? 0 : t - near;
+    const std::size_t to = std::min(t + near, frames.size() - 1);
+    bool is_near_unloaded = false;
+    for (std::size_t k = from; k <= to; ++k) {
+      is_near_unloaded |=
+          frames[k].vertical_force_g < kLoadedJudge_g || !frames[k].outside_m;
+    }
+    if (t < near || t + near >= frames.size()) {
+      ++out.near_end;
+    } else if (is_near_unloaded) {
+      ++out.near_unloaded;
+    } else if (frames[t].vertical_force_g < 0.5) {
+      ++out.light;
+    }
     if (1e3 * *frames[t].outside_m > out.worst_mm) {
       out.worst_mm = 1e3 * *frames[t].outside_m;
       out.worst_frame = static_cast<int>(t);
@@ -80,6 +103,9 @@ struct ZmpTotals {
   JudgedFrames before;
   JudgedFrames after;
   std::vector<double> shifts_mm;
+  int streamed_supported = 0;  ///< Frames of streams behind the delay.
+  int streamed_outside = 0;
+  int streamed_before = 0;
 
   void add(const JudgedFrames& was, const JudgedFrames& is, double shift_mm) {
     ++motions;
@@ -89,6 +115,9 @@ struct ZmpTotals {
       to.supported += one.supported;
       to.outside += one.outside;
       to.far_outside += one.far_outside;
+      to.near_end += one.near_end;
+      to.near_unloaded += one.near_unloaded;
+      to.light += one.light;
       to.worst_mm = std::max(to.worst_mm, one.worst_mm);
     };
     sum(before, was);
@@ -96,6 +125,53 @@ struct ZmpTotals {
     shifts_mm.push_back(shift_mm);
   }
 };
+
+/// Streams a motion through the preview control: only the centre of mass is displaced.
+/// Counts the frames that are outside.
+void measure_stream(const edit::EditState& state,
+                    const std::vector<PointMass>& masses,
+                    const edit::ZmpGround& ground,
+                    ZmpTotals& totals) {
+  const edit::ZmpTrack track = edit::zmp_track(state.motion, state.map, masses, ground);
+  const std::size_t frames = track.com_in_world.size();
+  double height_m = 0.0;
+  for (const glm::dvec3& com : track.com_in_world) {
+    height_m += (com.y - ground.floor_height_m) / static_cast<double>(frames);
+  }
+  if (height_m <= 0.0) return;
+  dynamics::PreviewBalance balance(state.motion.rate, height_m);
+  const std::size_t delay = balance.latency_frames();
+  std::vector<glm::dvec3> moved = track.com_in_world;
+  for (std::size_t t = 0; t < frames; ++t) {
+    glm::dvec2 wanted(0.0);
+    if (const auto& zmp = track.reactions[t].zmp_xz_m) {
+      wanted = dynamics::moved_inside(track.supports[t], *zmp, 0.01) - *zmp;
+      const double way_m = glm::length(wanted);
+      if (way_m > kMaxStream_m) wanted *= kMaxStream_m / way_m;
+    }
+    const glm::dvec2 shift = balance.step(wanted);
+    if (t >= delay) moved[t - delay] += glm::dvec3(shift.x, 0.0, shift.y);
+  }
+  if (frames <= 2 * delay) return;
+  dynamics::ZmpOptions options;
+  options.floor_height_m = ground.floor_height_m;
+  const auto before =
+      dynamics::ground_reactions(track.com_in_world, {}, state.motion.rate, options);
+  const auto after = dynamics::ground_reactions(moved, {}, state.motion.rate, options);
+  for (std::size_t t = delay; t + delay < frames; ++t) {
+    if (!track.reactions[t].zmp_xz_m || !after[t].zmp_xz_m) continue;
+    const glm::dvec2 p =
+        *track.reactions[t].zmp_xz_m + *after[t].zmp_xz_m - *before[t].zmp_xz_m;
+    const auto outside_m = dynamics::distance_outside(track.supports[t], p);
+    if (!outside_m) continue;
+    ++totals.streamed_supported;
+    if (*outside_m > 0.0) ++totals.streamed_outside;
+    totals.streamed_before +=
+        *dynamics::distance_outside(track.supports[t], *track.reactions[t].zmp_xz_m) > 0.0
+            ? 1
+            : 0;
+  }
+}
 
 double jerk_of(const Motion& motion) {
   double sum = 0.0;
@@ -129,6 +205,7 @@ void measure_motion(const std::string& name, Motion motion, ZmpTotals& totals) {
   const JudgedFrames was = judged(*state, *masses, ground, state->motion);
   const JudgedFrames is = judged(*state, *masses, ground, moved);
   totals.add(was, is, 1e3 * report.max_shift_m);
+  measure_stream(*state, *masses, ground, totals);
   std::printf(
       "%-44s %5zu %5d %5d | %5d %7.0f | %4d %4d %6.1f %5d | %4.0f %4.0f %5.1f %5.2f "
       "%6.0f\n",
@@ -181,6 +258,21 @@ void print_totals(const char* name, ZmpTotals& totals) {
       totals.after.far_outside,
       totals.after.worst_mm,
       totals.shifts_mm[totals.shifts_mm.size() / 2]);
+  std::printf(
+      "  outside after: %d near the ends of clips, %d near frames without load or "
+      "support, "
+      "%d with less than half of the weight, %d others\n"
+      "  streams with a delay of 0.8 s, centre of mass alone: outside %d of %d before, "
+      "%d "
+      "after\n",
+      totals.after.near_end,
+      totals.after.near_unloaded,
+      totals.after.light,
+      totals.after.outside - totals.after.near_end - totals.after.near_unloaded -
+          totals.after.light,
+      totals.streamed_before,
+      totals.streamed_supported,
+      totals.streamed_outside);
 }
 
 int run(int argc, char** argv) {

@@ -26,9 +26,10 @@ constexpr std::array<double, 3> kPriceFactors{1.0, 0.3, 0.1};
 // Cost of a displacement that moves at an end of the motion, over that of stopping it
 // there: a motion does not begin or end in a fall.
 constexpr double kEndFactor = 100.0;
+// Solutions this many times beyond the limit come from rounding.
+constexpr double kDiverged = 2.0;
 constexpr double kPinned = 1e10;
 constexpr double kMinFreedom = 1e-3;
-// First and last state of the interior-point method.
 constexpr double kFirstSlack_m = 0.01;
 constexpr double kFirstGap = 1e-2;
 constexpr double kLastGap = 1e-10;
@@ -71,7 +72,6 @@ class ZmpProgramme {
     }
   }
 
-  // Returns true if the reference itself meets all constraints.
   [[nodiscard]] bool is_met() const {
     return std::all_of(edges_.begin(), edges_.end(), [&](const ZmpEdge& edge) {
       return glm::dot(edge.normal, reference(row_of(edge))) <= edge.bound_m;
@@ -84,7 +84,6 @@ class ZmpProgramme {
       const double gap = evaluate();
       if (gap < kLastGap && residual_ < kLastResidual) return i;
       assemble();
-      // Predictor: towards the solution; corrector: towards the central path.
       eliminate(0.0, false);
       const double predicted = std::pow(1.0 - longest_step(), 3.0);
       for (ZmpEdge& edge : edges_) {
@@ -122,14 +121,12 @@ class ZmpProgramme {
   [[nodiscard]] Row row_of(const ZmpEdge& edge) const {
     return {edge.frame, edge.of_zmp, edge.of_zmp ? lever_s2_[edge.frame] : 0.0};
   }
-  // Returns the place of the point before the displacement.
   [[nodiscard]] glm::dvec2 reference(const Row& row) const {
     if (row.of_zmp) return *input_.reactions[row.frame].zmp_xz_m;
     return input_.displaced_xz_m.empty() ? glm::dvec2(0.0)
                                          : input_.displaced_xz_m[row.frame];
   }
 
-  // Returns the displacement of the point by displacements of the body.
   [[nodiscard]] glm::dvec2 moved(std::span<const double> x, const Row& row) const {
     const std::size_t t = row.frame;
     const auto weights = derive_.curvature(t);
@@ -171,7 +168,6 @@ class ZmpProgramme {
     return x_[i] + (i % 2 == 0 ? before.x : before.y);
   }
 
-  // Returns the pairs of displacements at both ends of the motion.
   [[nodiscard]] std::vector<std::array<std::size_t, 2>> ends() const {
     const std::size_t n = x_.size();
     if (frames_ < 3) return {};
@@ -360,6 +356,7 @@ KeepZmpResult solved(const KeepZmpInput& input,
                      const KeepZmpOptions& options,
                      double price_m) {
   KeepZmpResult out;
+  out.price_m = price_m;
   const std::size_t frames = input.com_in_world.size();
   out.shift_xz_m.assign(frames, glm::dvec2(0.0));
   ZmpProgramme programme(input, options, price_m);
@@ -391,7 +388,10 @@ KeepZmpResult keep_zmp(const KeepZmpInput& input, const KeepZmpOptions& options)
   KeepZmpResult out;
   for (const double factor : kPriceFactors) {
     out = solved(input, options, factor * options.price_m);
-    out.price_m = factor * options.price_m;
+    if (!(out.max_shift_m < kDiverged * options.max_shift_m)) {  // Or not a number.
+      out.shift_xz_m.assign(frames, glm::dvec2(0.0));
+      continue;
+    }
     if (out.unmet_frames.empty() || out.max_shift_m <= options.modest_shift_m) break;
   }
   return out;

@@ -57,7 +57,8 @@ Status check_jump_numbers(const JumpWish& wish,
 Status check_jump_conflicts(const JumpReference& reference, const JumpWish& wish) {
   const Jump& jump = reference.jump();
   if (wish.apex_m && wish.apex_by_m) {
-    return bad_input("apex_by_m", "is stated together with apex_m", "leave one of the two out");
+    return bad_input(
+        "apex_by_m", "is stated together with apex_m", "leave one of the two out");
   }
   if (wish.landing_in_world && (wish.length_m || wish.box_m)) {
     return bad_input("land_m",

@@ -129,8 +129,9 @@ Result<double> JumpPlanner::takeoff_speed() const {
         fall_m / *wish_.airtime_s + 0.5 * gravity_m_s2_ * *wish_.airtime_s;
     if (speed_m_s) {
       const double root = *speed_m_s * *speed_m_s - 2.0 * gravity_m_s2_ * fall_m;
+      // A negative root is refused by solve_flight().
       const double airtime_s =
-          root < 0.0 ? 0.0 : (*speed_m_s + std::sqrt(root)) / gravity_m_s2_;
+          root < 0.0 ? *wish_.airtime_s : (*speed_m_s + std::sqrt(root)) / gravity_m_s2_;
       if (std::abs(airtime_s - *wish_.airtime_s) > kSameTime_s) {
         return bad_input(
             "airtime_s",
@@ -190,6 +191,7 @@ Status JumpPlanner::solve_flight() {
                      "wish for a flight of at least " + seconds(kShortestFlight_s));
   }
   touchdown_->time_s = takeoff_.time_s + flight_s;
+  if (!wish_.length_m && !wish_.landing_in_world) keep_level_speed(flight_s);
   const glm::dvec3 way = touchdown_->p_in_world - takeoff_.p_in_world;
   takeoff_.velocity_m_s.x = way.x / flight_s;
   takeoff_.velocity_m_s.z = way.z / flight_s;
@@ -198,8 +200,14 @@ Status JumpPlanner::solve_flight() {
   return Done{};
 }
 
-LowestPoint JumpPlanner::wanted_lowest(const SupportPush& captured) const {
-  return options_.lowest.value_or(captured.lowest());
+void JumpPlanner::keep_level_speed(double flight_s) {
+  const double captured_s = jump_.touchdown->time_s - jump_.takeoff.time_s;
+  glm::dvec3 way = jump_.touchdown->p_in_world - jump_.takeoff.p_in_world;
+  way.y = 0.0;
+  const glm::dvec3 farther = (flight_s / (captured_s * time_scale_) - 1.0) * way;
+  moved_m_ += farther;
+  touchdown_->p_in_world += farther;
+  rest_->p_in_world += farther;
 }
 
 SupportWish JumpPlanner::push_wish(double speed_m_s) const {
@@ -214,7 +222,7 @@ SupportWish JumpPlanner::push_wish(double speed_m_s) const {
                   kOverCaptured_m;
   out.friction = traits_.friction;
   out.law = options_.law;
-  out.lowest = wanted_lowest(reference_.push_model());
+  out.lowest = options_.lowest.value_or(reference_.push_model().lowest());
   return out;
 }
 
@@ -334,7 +342,6 @@ std::vector<WarpKnot> JumpPlanner::warp_knots() const {
       knots.push_back({time_s, source_s});
     }
   };
-  /// Replaces the last knots that are too close to one that must be there.
   const auto require = [&](double time_s, double source_s) {
     while (knots.size() > 1 && (time_s <= knots.back().time_s + kKnotGap_s ||
                                 source_s <= knots.back().source_s + kKnotGap_s)) {

@@ -28,6 +28,8 @@ class JumpPlanner {
   /// Sets the height, the place and the time of take-off and touch-down.
   [[nodiscard]] Status solve_flight();
   [[nodiscard]] Result<double> takeoff_speed() const;
+  /// Moves the landing so that the horizontal velocity of the flight is the captured one.
+  void keep_level_speed(double flight_s);
   [[nodiscard]] glm::dvec3 landing_moved() const;
   [[nodiscard]] Status solve_push();
   [[nodiscard]] Status solve_landing();
@@ -38,7 +40,6 @@ class JumpPlanner {
   /// Returns the largest difference to the captured jump, in metres or equivalents.
   [[nodiscard]] double change_m() const;
   [[nodiscard]] std::vector<WarpKnot> warp_knots() const;
-  [[nodiscard]] LowestPoint wanted_lowest(const SupportPush& captured) const;
   /// Height of a point of the centre of mass above the floor of the take-off.
   [[nodiscard]] double above_floor_m(double height_m) const;
 

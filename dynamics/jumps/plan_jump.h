@@ -11,7 +11,7 @@
 namespace marey::dynamics {
 
 /// Turns wishes into a plan (docs/jumps.md; Kulpa 2005, 6.2 to 6.4, with its error in
-/// 6.2.1 corrected). Everything else keeps the captured value: rise, landing point,
+/// 6.2.1 corrected). Everything else keeps the captured value: rise, horizontal velocity,
 /// durations of push and landing.
 ///
 /// The captured residual stays in push and landing. In flight it fades out as the wish

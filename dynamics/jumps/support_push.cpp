@@ -14,6 +14,8 @@ constexpr int kSupportInstants = 64;
 constexpr double kShareOfCone = 0.70710678118654752;
 /// Tolerance of captured horizontal forces. [m/s^2]
 constexpr double kOverCaptured_m_s2 = 0.5;
+/// Upward velocity of a body that counts as standing.
+constexpr double kNearlyStill_m_s = 0.1;
 constexpr double kGolden = 0.61803398874989485;
 constexpr int kGoldenSteps = 30;
 
@@ -57,6 +59,9 @@ std::optional<std::variant<ForcePush, ThesisPush>> vertical_push(
   ends.start_m_s2 =
       std::max(scale * reference.axes[1].force_m_s2.front() - wish.gravity_m_s2,
                -wish.gravity_m_s2);
+  // The law needs a body that falls or stands at the start.
+  if (ends.start_m_s > 0.0 && ends.start_m_s < kNearlyStill_m_s) ends.start_m_s = 0.0;
+  if (ends.start_m_s == 0.0) ends.start_m_s2 = std::min(*ends.start_m_s2, 0.0);
   ends.end_m_s2 =
       std::max(scale * reference.axes[1].force_m_s2.back() - wish.gravity_m_s2,
                -wish.gravity_m_s2);

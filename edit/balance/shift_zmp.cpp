@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "dynamics/balance/keep_zmp.h"
 #include "edit/balance/zmp_track.h"
@@ -72,6 +73,29 @@ class RootShifter {
   HoldFeetReport held_;
 };
 
+// The round that left the fewest points outside.
+struct BestRound {
+  Motion motion;
+  dynamics::ZmpFigures figures;
+  HoldFeetReport held;
+  double max_shift_m = 0.0;
+};
+
+// Scales the limits, which are those of an adult, for bodies that are taller.
+void scale_to(std::span<const glm::dvec3> com_in_world,
+              dynamics::KeepZmpOptions& options) {
+  constexpr double kAdult_m = 0.95;
+  double height_m = 0.0;
+  for (const glm::dvec3& com : com_in_world) {
+    height_m +=
+        (com.y - options.zmp.floor_height_m) / static_cast<double>(com_in_world.size());
+  }
+  const double scale = std::max(height_m / kAdult_m, 1.0);
+  options.max_shift_m *= scale;
+  options.modest_shift_m *= scale;
+  options.price_m *= scale;
+}
+
 // Compares the frames that may change.
 dynamics::ZmpFigures figures_within(const FrameRange& frames, const ZmpTrack& track) {
   const auto first = static_cast<std::size_t>(frames.first);
@@ -97,15 +121,27 @@ ShiftZmpReport shift_zmp(const EditState& state,
   options.zmp.floor_height_m = ground.floor_height_m;
   std::vector<glm::dvec2> displaced(motion.poses.size(), glm::dvec2(0.0));
   std::vector<glm::dvec3> start_in_world;
+  BestRound best;
+  int fewest = 0;
   for (int round = 0; round <= kRounds; ++round) {
     const ZmpTrack track = zmp_track(motion, state.map, masses, ground);
     report.after = figures_within(weights.frames, track);
     if (round == 0) {
       report.before = report.after;
       start_in_world = track.com_in_world;
+      scale_to(track.com_in_world, options);
+    }
+    const int outside = report.after.supported_frames - report.after.inside_frames;
+    if (round == 0 || outside < fewest) {
+      fewest = outside;
+      best = {motion, report.after, shifter.held(), shifter.max_shift_m()};
     }
     if (round == kRounds) break;
     if (round > 0 && report.after.inside_frames == report.after.supported_frames) break;
+    for (std::size_t t = 0; t < displaced.size(); ++t) {
+      const glm::dvec3 way = track.com_in_world[t] - start_in_world[t];
+      displaced[t] = {way.x, way.z};
+    }
     options.margin_m = round == 0 ? kMargin_m : 0.8 * kMargin_m;
     const dynamics::KeepZmpResult step = dynamics::keep_zmp({track.com_in_world,
                                                              track.reactions,
@@ -122,15 +158,16 @@ ShiftZmpReport shift_zmp(const EditState& state,
       const glm::dvec3& com = track.com_in_world[t];
       target[t] = glm::dvec2(com.x, com.z) + step.shift_xz_m[t];
       largest_m = std::max(largest_m, glm::length(step.shift_xz_m[t]));
-      displaced[t] = target[t] - glm::dvec2(start_in_world[t].x, start_in_world[t].z);
     }
     if (largest_m <= 0.0 || (round > 0 && largest_m < kEnough_m)) break;
     shifter.reach(target, motion);
   }
-  report.max_shift_m = shifter.max_shift_m();
-  report.lowered_m = shifter.held().lowered_m;
-  report.missed_m = shifter.held().missed_m;
-  report.missed_frame = shifter.held().missed_frame;
+  motion = std::move(best.motion);
+  report.after = best.figures;
+  report.max_shift_m = best.max_shift_m;
+  report.lowered_m = best.held.lowered_m;
+  report.missed_m = best.held.missed_m;
+  report.missed_frame = best.held.missed_frame;
   return report;
 }
 

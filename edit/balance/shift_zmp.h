@@ -27,8 +27,9 @@ struct ShiftZmpReport {
 /// in every loaded frame (dynamics/balance/keep_zmp.h). Standing feet keep their places,
 /// and legs follow (hold_feet()); a moved leg changes centre of mass and angular momentum
 /// again, so the displacement is computed up to twelve times from the motion as it is
-/// then. Frames with weight 0 keep their pose to the bit. Linear in frames.
-/// Preconditions: `motion` is the state's motion; those of zmp_track().
+/// then, and the motion with the fewest points outside is kept. Frames with weight 0 keep
+/// their pose to the bit. Linear in frames. Preconditions: `motion` is the state's
+/// motion; those of zmp_track().
 ShiftZmpReport shift_zmp(const EditState& state,
                          std::span<const PointMass> masses,
                          const OpWeights& weights,

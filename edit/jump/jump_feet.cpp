@@ -22,8 +22,8 @@ constexpr double kBearsWithin_s = 0.15;
 constexpr double kFlightFade_s = 0.0;
 /// Fade of the hold before and after other stances.
 constexpr double kSwingFade_s = 0.16;
-/// Time before and after a flight in which the centre of mass comes before the feet: it is on its
-/// plan when the flight begins and ends.
+/// Time before and after a flight in which the centre of mass comes before the feet: it
+/// is on its plan when the flight begins and ends.
 constexpr double kGiveWay_s = 0.08;
 /// Time after touch-down in which heels may still be up.
 constexpr double kHeelDown_s = 0.15;

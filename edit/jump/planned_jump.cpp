@@ -63,7 +63,11 @@ Result<FoundJumps> find_state_jumps(const JumpOp& op,
   dynamics::FindJumpsOptions options = find_options(op, state);
   if (op.push_start) {
     const auto frame = resolve_moment(state, *op.push_start);
-    if (!frame) return frame.error();
+    if (!frame) {
+      Error error = frame.error();
+      error.where = "push_start";
+      return error;
+    }
     options.start_s = *frame / state.motion.rate.hz;
   }
   const double hz = state.motion.rate.hz;
@@ -77,7 +81,7 @@ Result<FoundJumps> find_state_jumps(const JumpOp& op,
                      context.op.span.is_whole()
                          ? "the motion has no time in which nothing bears the body"
                          : "the span has no time in which nothing bears the body",
-                     "choose a motion, or a span, with a flight of at least 0.08 s");
+                     "choose a motion, or a span, with a flight of at least 0.05 s");
   }
   if (op.jump < 1 || static_cast<std::size_t>(op.jump) > out.jumps.size()) {
     const std::string count = std::to_string(out.jumps.size());

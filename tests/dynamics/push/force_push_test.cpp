@@ -211,7 +211,7 @@ TEST(ForcePush, GivenAccelerationsAreMet) {
 }
 
 TEST(ForcePush, ALandingWithAnImpactComesToRest) {
-  constexpr double kDuration_s = 0.45;
+  constexpr double kOneDuration_s = 0.45;
   std::vector<double> force;
   for (int i = 0; i < 54; ++i) {
     const double x = i / 53.0;
@@ -220,21 +220,21 @@ TEST(ForcePush, ALandingWithAnImpactComesToRest) {
     force.push_back(std::min(1.0, 20.0 * x) * (9.81 + brake) + impact * (x > 0.0));
   }
   force.front() = 0.0;
-  const PushReference reference = make_push_reference(kDuration_s, force);
+  const PushReference reference = make_push_reference(kOneDuration_s, force);
   const double start_m_s = -2.4;
   const PushEnds own{
       1.0,
       start_m_s,
-      1.0 + start_m_s * kDuration_s + reference.double_impulse_m.back() -
-          0.5 * kStandardGravity_m_s2 * kDuration_s * kDuration_s,
-      start_m_s + reference.impulse_m_s.back() - kStandardGravity_m_s2 * kDuration_s,
-      kDuration_s};
+      1.0 + start_m_s * kOneDuration_s + reference.double_impulse_m.back() -
+          0.5 * kStandardGravity_m_s2 * kOneDuration_s * kOneDuration_s,
+      start_m_s + reference.impulse_m_s.back() - kStandardGravity_m_s2 * kOneDuration_s,
+      kOneDuration_s};
   for (const double faster : {0.6, 0.8, 1.0, 1.2, 1.5}) {
     PushEnds ends = own;
     ends.start_m_s = start_m_s * faster;
     ends.end_m = 0.75;
     ends.end_m_s = 0.0;
-    ends.duration_s = kDuration_s * std::sqrt(std::max(1.0, faster));
+    ends.duration_s = kOneDuration_s * std::sqrt(std::max(1.0, faster));
     const auto push = derive_push(reference, ends);
     ASSERT_TRUE(push) << faster;
     EXPECT_NEAR(push->height_m(ends.duration_s), 0.75, 1e-12);
@@ -267,15 +267,15 @@ TEST(ForcePush, DerivingAllocatesNothing) {
 }
 
 TEST(ForcePush, AHorizontalForceStaysInsideItsBounds) {
-  constexpr double kDuration_s = 0.3;
+  constexpr double kOneDuration_s = 0.3;
   std::vector<double> force;
   for (int i = 0; i < 31; ++i) force.push_back(-3.0 * std::sin(2.0 * M_PI * i / 30.0));
-  const PushReference reference = make_push_reference(kDuration_s, force);
+  const PushReference reference = make_push_reference(kOneDuration_s, force);
   std::array<double, kForceInstants> largest_m_s2{};
   for (std::size_t k = 0; k < largest_m_s2.size(); ++k) {
     largest_m_s2[k] = 9.0 * std::sin(M_PI * static_cast<double>(k) / 63.0);
   }
-  PushEnds ends{0.0, 3.0, 0.9 + reference.double_impulse_m.back(), 3.0, kDuration_s};
+  PushEnds ends{0.0, 3.0, 0.9 + reference.double_impulse_m.back(), 3.0, kOneDuration_s};
   ends.end_m_s += reference.impulse_m_s.back();
   const auto same = derive_horizontal_push(reference, ends, largest_m_s2);
   ASSERT_TRUE(same);
@@ -284,12 +284,12 @@ TEST(ForcePush, AHorizontalForceStaysInsideItsBounds) {
   ends.end_m += 0.2;
   const auto push = derive_horizontal_push(reference, ends, largest_m_s2);
   ASSERT_TRUE(push);
-  EXPECT_NEAR(push->height_m(kDuration_s), ends.end_m, 1e-12);
-  EXPECT_NEAR(push->velocity_m_s(kDuration_s), ends.end_m_s, 1e-12);
+  EXPECT_NEAR(push->height_m(kOneDuration_s), ends.end_m, 1e-12);
+  EXPECT_NEAR(push->velocity_m_s(kOneDuration_s), ends.end_m_s, 1e-12);
   for (std::size_t k = 0; k < largest_m_s2.size(); ++k) {
     const double x = static_cast<double>(k) / 63.0;
     const double own = std::abs(3.0 * std::sin(2.0 * M_PI * x));
-    EXPECT_LE(std::abs(push->force_m_s2(x * kDuration_s)),
+    EXPECT_LE(std::abs(push->force_m_s2(x * kOneDuration_s)),
               std::max(largest_m_s2[k], own) + 1e-5);
   }
   ends.end_m_s += 10.0;
