@@ -1,18 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Jumps that were changed, on five bodies, judged by independent code: are wishes met, is
-// the flight a free fall, do feet stand, is the motion as smooth as before?
-//
-//   measure_jump_edits DATA [CLIP]
-//
-// DATA is the folder of the shared recordings; CLIP names one clip.
+// Jumps that were changed, on five bodies, judged by independent code. DATA is the folder
+// of the shared recordings: measure_jump_edits DATA [CLIP]
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -44,7 +39,8 @@ struct JumpFigures {
   double least_push_g = 1e9;
   double off_fall_mm = 0.0;
   double off_plan_mm = 0.0;
-  double slide_mm = 0.0;
+  double slide_mm = 0.0;  ///< Added displacement of standing feet.
+  double foot_mm = 0.0;   ///< Distance of held feet from their places, as reported.
   double jerk_ratio = 0.0;
   double momentum = 0.0;
   double turn_deg = 0.0;
@@ -66,16 +62,63 @@ struct JumpCase {
   double rise = 1.0;
 };
 
-/// Drift of standing feet in contacts that both motions have. [mm]
-double drift_mm(const edit::EditState& state) {
-  return edit::measure_slide(state).worst_drift_mm;
+/// Places of a joint in all frames, by forward kinematics.
+std::vector<glm::dvec3> joint_places(const Motion& motion, JointIndex joint) {
+  std::vector<RigidTransform> world(motion.skeleton.joints.size());
+  std::vector<glm::dvec3> out;
+  for (const Pose& pose : motion.poses) {
+    world_from_joints(motion.skeleton, pose, world);
+    out.push_back(world[index(joint)].translation);
+  }
+  return out;
+}
+
+/// Largest distance of a standing joint from its captured place at the same instant,
+/// displaced with the landing. Toe joints count while the ball bears; ankles while the
+/// heel bears and must not rise. [mm]
+double added_slide_mm(const edit::EditState& captured,
+                      const dynamics::JumpPlan& plan,
+                      const Motion& motion) {
+  const double hz = motion.rate.hz;
+  double worst_m = 0.0;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const FootContacts& foot = captured.contacts.feet[side];
+    const HumanBone toes = side == 0 ? HumanBone::kLeftToes : HumanBone::kRightToes;
+    const auto toe_joint = captured.map.joint_of[index(toes)];
+    for (const bool is_heel : {true, false}) {
+      if (!is_heel && !toe_joint) continue;
+      const JointIndex joint =
+          is_heel ? captured.map.leg(static_cast<int>(side)).end : *toe_joint;
+      const auto before = joint_places(captured.motion, joint);
+      const auto after = joint_places(motion, joint);
+      for (std::size_t k = 0; k < after.size(); ++k) {
+        const double t_s = static_cast<double>(k) / hz;
+        const bool landed = t_s >= plan.touchdown()->time_s;
+        const bool may_rise =
+            t_s > plan.lowest_s() && t_s < plan.touchdown()->time_s + 0.15;
+        if (is_heel && may_rise) continue;
+        const double at = plan.source_s(t_s) * hz;
+        const auto bears = [&](const FrameRange& run) {
+          return at >= run.first - 1e-6 && at <= run.last + 1e-6;
+        };
+        const auto& runs = is_heel ? foot.heel : foot.ball;
+        if (std::none_of(runs.begin(), runs.end(), bears)) continue;
+        const auto low = std::min(static_cast<std::size_t>(at + 1e-6), before.size() - 1);
+        const auto high = std::min(low + 1, before.size() - 1);
+        const double share = std::clamp(at - static_cast<double>(low), 0.0, 1.0);
+        const glm::dvec3 expected = (1.0 - share) * before[low] + share * before[high] +
+                                    (landed ? plan.landing_moved_m() : glm::dvec3(0.0));
+        worst_m = std::max(worst_m, glm::distance(after[k], expected));
+      }
+    }
+  }
+  return 1e3 * worst_m;
 }
 
 class JumpJudge {
  public:
   JumpJudge(const edit::EditState& state, const edit::FoundJumps& found)
       : state_(state), found_(found), jump_(found.jumps[found.chosen]) {
-    slide_before_mm_ = drift_mm(state);
     jerk_before_ = testing::largest_jerk_m_s3(state.motion, frames_of(jump_, 0.0));
   }
 
@@ -99,8 +142,8 @@ class JumpJudge {
     for (double t = plan->start_s() + 1e-6; t < plan->rest()->time_s; t += 1e-3) {
       out.least_push_g = std::min(out.least_push_g, plan->push_g(t));
     }
-    out.slide_mm = std::max(out.slide_mm, figure_of(report, "slide_mm"));
-    drift_after_mm_ = drift_mm(result);
+    out.slide_mm = std::max(out.slide_mm, added_slide_mm(state_, *plan, result.motion));
+    out.foot_mm = std::max(out.foot_mm, figure_of(report, "slide_mm"));
     out.off_plan_mm = std::max(out.off_plan_mm, figure_of(report, "com_error_mm"));
     out.short_leg_mm = std::max(out.short_leg_mm, figure_of(report, "short_leg_mm"));
     out.turn_deg = std::max(out.turn_deg, figure_of(report, "turn_deg"));
@@ -108,14 +151,16 @@ class JumpJudge {
     moved.start.time_s = plan->start_s();
     moved.rest = plan->rest();
     const double jerk = testing::largest_jerk_m_s3(result.motion, frames_of(moved, 0.0));
-    last_jerk_ratio_ = jerk / jerk_before_;
-    out.jerk_ratio = std::max(out.jerk_ratio, last_jerk_ratio_);
+    // A motion that was scaled to a body is played at the rate of its fall.
+    const double natural = std::pow(jump_.gravity_m_s2 / 9.81, 1.5);
+    const bool is_scaled = std::abs(jump_.gravity_m_s2 / 9.81 - 1.0) > 0.34;
+    const double ratio = jerk / jerk_before_ * (is_scaled ? natural : 1.0);
+    if (wanted.rise >= 0.5 && wanted.rise <= 1.5) {
+      out.jerk_ratio = std::max(out.jerk_ratio, ratio);
+    }
   }
 
   [[nodiscard]] const std::string& last_refusal() const { return last_refusal_; }
-  [[nodiscard]] double last_jerk_ratio() const { return last_jerk_ratio_; }
-  [[nodiscard]] double slide_before_mm() const { return slide_before_mm_; }
-  [[nodiscard]] double drift_after_mm() const { return drift_after_mm_; }
 
  private:
   [[nodiscard]] FrameRange frames_of(const dynamics::Jump& jump, double around_s) const {
@@ -181,10 +226,7 @@ class JumpJudge {
   const dynamics::Jump& jump_;
   edit::EditInputs inputs_;
   std::string last_refusal_;
-  double slide_before_mm_ = 0.0;
-  double drift_after_mm_ = 0.0;
   double jerk_before_ = 0.0;
-  double last_jerk_ratio_ = 0.0;
 };
 
 std::vector<JumpCase> wishes_of(const dynamics::Jump& jump) {
@@ -233,7 +275,8 @@ double plan_us(const JumpOp& wish, const edit::FoundJumps& found, FrameRate rate
 
 void print_row(const std::string& name, const JumpFigures& f) {
   std::printf(
-      "%-34s %3d %3d %7.3f %7.3f %7.3f %8.1e %7.3f %7.3f %7.4f %6.2f %7.4f %5.2f %6.1f "
+      "%-34s %3d %3d %7.3f %7.3f %7.3f %8.1e %7.3f %7.3f %7.4f %7.3f %6.2f %7.4f %5.2f "
+      "%6.1f "
       "%6.1f\n",
       name.c_str(),
       f.cases,
@@ -245,6 +288,7 @@ void print_row(const std::string& name, const JumpFigures& f) {
       f.off_fall_mm,
       f.off_plan_mm,
       f.slide_mm,
+      f.foot_mm,
       f.jerk_ratio,
       f.momentum,
       f.turn_deg,
@@ -328,7 +372,7 @@ int main(int argc, char** argv) {
     std::fputs("measure_jump_edits DATA [CLIP]\n", stderr);
     return 2;
   }
-  std::printf("%-34s %3s %3s %7s %7s %7s %8s %7s %7s %7s %6s %7s %5s %6s %6s\n",
+  std::printf("%-34s %3s %3s %7s %7s %7s %8s %7s %7s %7s %7s %6s %7s %5s %6s %6s\n",
               "clip, body",
               "n",
               "no",
@@ -338,6 +382,7 @@ int main(int argc, char** argv) {
               "push g",
               "fall mm",
               "plan mm",
+              "slidemm",
               "foot mm",
               "jerk x",
               "L sd",

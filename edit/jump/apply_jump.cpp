@@ -52,8 +52,10 @@ std::vector<double> shown_frames(const EditState& state, const dynamics::JumpPla
 /// times.
 retarget::FollowComReport follow_plan(const FoundJumps& found,
                                       const dynamics::JumpPlan& plan,
+                                      const EditState& captured,
+                                      std::span<const double> frames,
                                       EditState& state) {
-  const auto feet = jump_feet(state, plan);
+  const auto feet = jump_feet(captured, frames, state, plan);
   const double hz = state.motion.rate.hz;
   std::vector<glm::dvec3> com(state.motion.poses.size());
   for (std::size_t k = 0; k < com.size(); ++k) {
@@ -130,9 +132,10 @@ Result<EditState> apply_jump(const JumpOp& op,
     report_jump_body({}, state.motion.rate, report);
     return out;
   }
-  EditState out = resample_state(state, shown_frames(state, *plan), state.motion.rate.hz);
+  const std::vector<double> frames = shown_frames(state, *plan);
+  EditState out = resample_state(state, frames, state.motion.rate.hz);
   const Motion shown = out.motion;
-  const retarget::FollowComReport body = follow_plan(*found, *plan, out);
+  const retarget::FollowComReport body = follow_plan(*found, *plan, state, frames, out);
   report_jump_body(body, state.motion.rate, report);
   if (const auto flight = flight_of(*plan, out); flight && op.keep_momentum) {
     const auto count = static_cast<std::size_t>(flight->last - flight->first + 1);

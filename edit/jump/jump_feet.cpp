@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "edit/jump/foot_course.h"
+#include "edit/state/plant_feet.h"
 #include <glm/vec3.hpp>
 
 #include "core/base/smooth_step.h"
@@ -78,7 +80,9 @@ double hold_at(const std::vector<Stance>& stances, double time_s) {
 
 }  // namespace
 
-std::array<std::vector<retarget::FootGoal>, 2> jump_feet(const EditState& state,
+std::array<std::vector<retarget::FootGoal>, 2> jump_feet(const EditState& captured,
+                                                         std::span<const double> shown,
+                                                         const EditState& state,
                                                          const dynamics::JumpPlan& plan) {
   const auto count = static_cast<std::size_t>(state.frame_count());
   const double hz = state.motion.rate.hz;
@@ -117,6 +121,11 @@ std::array<std::vector<retarget::FootGoal>, 2> jump_feet(const EditState& state,
                                      state.map,
                                      static_cast<int>(side),
                                      {displaced, hold, heel, gives_way});
+    const auto course = foot_course(foot_places(captured, static_cast<int>(side)), shown);
+    for (std::size_t t = 0; t < count; ++t) {
+      out[side][t].place = course[t];
+      out[side][t].place.ankle_in_world += displaced[t];
+    }
   }
   return out;
 }
