@@ -31,8 +31,9 @@ constexpr std::array<LineFigure, 5> kFlight{
      {"fall_m_s2", "fall", "%.2f m/s^2"}}};
 constexpr std::array<LineFigure, 2> kPush{
     {{"lowest_m", "lowest point", "%.3f m"}, {"push_g", "peak push", "%.2f g"}}};
-constexpr std::array<LineFigure, 6> kBody{
-    {{"com_error_mm", "centre of mass off its plan by at most", "%.3f mm"},
+constexpr std::array<LineFigure, 7> kBody{
+    {{"com_error_mm", "centre of mass off its plan in flight by at most", "%.3f mm"},
+     {"com_error_push_mm", "in the whole jump", "%.3f mm"},
      {"slide_mm", "standing feet slide by at most", "%.3f mm"},
      {"raised_heel_mm", "heels rise by at most", "%.0f mm"},
      {"short_leg_mm", "legs too short by at most", "%.1f mm"},

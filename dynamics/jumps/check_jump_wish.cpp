@@ -26,7 +26,8 @@ Status check_jump_numbers(const JumpWish& wish,
     double low;
     double high;
   };
-  const std::array<Named, 9> numbers{{
+  const std::optional<LowestPoint>& lowest = options.lowest;
+  const std::array<Named, 12> numbers{{
       {"apex_m", wish.apex_m, -100.0, 100.0},
       {"apex_by_m", wish.apex_by_m, -100.0, 100.0},
       {"airtime_s", wish.airtime_s, kShortestFlight_s, 20.0},
@@ -36,6 +37,12 @@ Status check_jump_numbers(const JumpWish& wish,
       {"strength_g", traits.strength_g, 0.5, 100.0},
       {"gravity_m_s2", options.gravity_m_s2, 0.5, 30.0},
       {"deepest_m", traits.deepest_m, -100.0, 100.0},
+      {"friction", traits.friction, 0.0, 100.0},
+      {"lowest.at", lowest ? std::optional(lowest->at) : std::nullopt, 0.001, 0.999},
+      {"lowest.height_m",
+       lowest ? std::optional(lowest->height_m) : std::nullopt,
+       -100.0,
+       100.0},
   }};
   for (const Named& number : numbers) {
     if (!number.value) continue;
@@ -75,6 +82,11 @@ Status check_jump_conflicts(const JumpReference& reference, const JumpWish& wish
   }
   if (jump.touchdown && reference.landing() == nullptr) {
     const double after_s = reference.end_s() - jump.touchdown->time_s;
+    if (jump.rest) {
+      return bad_input("jump",
+                       "has a captured landing whose force does not lead to its rest",
+                       "filter the motion before");
+    }
     return bad_input("jump",
                      "has no complete landing: the clip ends " +
                          format_text("%.3f s", after_s) + " after touch-down",

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "dynamics/jumps/check_jump_wish.h"
+#include "dynamics/jumps/landing_moved.h"
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -37,16 +38,21 @@ constexpr double kOverCaptured_m = 0.002;
 constexpr std::array kLandingFactors{1.0, 1.1, 1.2, 1.35, 1.5, 1.75, 2.0};
 /// Knots closer to others than this are left out. [s]
 constexpr double kKnotGap_s = 0.02;
-/// Direction of a jump that does not travel is ahead of the feet; here +Z. [m]
-constexpr double kInPlace_m = 0.02;
 
 /// Returns the factor of durations between gravities. A capture that falls at nearly the
 /// right rate keeps its times; a motion that was scaled to another body is played at the
 /// rate at which that body falls.
 double time_scale(double captured_m_s2, double wanted_m_s2) {
-  constexpr double kMostOff = 1.34;
   const double ratio = captured_m_s2 / wanted_m_s2;
-  return ratio < kMostOff && ratio > 1.0 / kMostOff ? 1.0 : std::sqrt(ratio);
+  return ratio < kCaptureGravityFactor && ratio > 1.0 / kCaptureGravityFactor
+             ? 1.0
+             : std::sqrt(ratio);
+}
+
+/// True if nothing is asked for: then the captured fall is kept, too.
+bool is_unchanged(const JumpWish& wish, const PlanJumpOptions& options) {
+  return wish.is_empty() && !options.ballistic && options.law == PushLawKind::kForce &&
+         options.gravity_m_s2 == kStandardGravity_m_s2;
 }
 
 std::string metres(double value_m) {
@@ -67,43 +73,17 @@ JumpPlanner::JumpPlanner(const JumpReference& reference,
       wish_(wish),
       traits_(traits),
       options_(options),
-      gravity_m_s2_(options.gravity_m_s2),
-      strength_m_s2_(options.gravity_m_s2 *
+      gravity_m_s2_(is_unchanged(wish, options) ? jump_.gravity_m_s2
+                                                : options.gravity_m_s2),
+      strength_m_s2_(gravity_m_s2_ *
                      traits.strength_g.value_or(std::max(
                          kLeastStrength_g, kStrengthOfPeak * reference.push().peak_g))),
-      time_scale_(time_scale(jump_.gravity_m_s2, options.gravity_m_s2)),
+      time_scale_(time_scale(jump_.gravity_m_s2, gravity_m_s2_)),
       push_s_(wish.push_s.value_or(reference.push().duration_s() * time_scale_)),
       takeoff_(jump_.takeoff) {}
 
 double JumpPlanner::above_floor_m(double height_m) const {
   return height_m - jump_.takeoff_feet_in_world.y;
-}
-
-glm::dvec3 JumpPlanner::landing_moved() const {
-  glm::dvec3 moved(0.0);
-  if (!jump_.landing_feet_in_world) return moved;
-  const glm::dvec3 landing = *jump_.landing_feet_in_world;
-  if (wish_.landing_in_world) return *wish_.landing_in_world - landing;
-  if (wish_.box_m) {
-    moved.y = *wish_.box_m - (landing.y - jump_.takeoff_feet_in_world.y);
-  }
-  if (wish_.length_m) {
-    glm::dvec3 way = landing - jump_.takeoff_feet_in_world;
-    way.y = 0.0;
-    const double length_m = glm::length(way);
-    glm::dvec3 ahead(0.0, 0.0, 1.0);
-    const glm::dvec3 speed(
-        jump_.takeoff.velocity_m_s.x, 0.0, jump_.takeoff.velocity_m_s.z);
-    if (length_m > kInPlace_m) {
-      ahead = way / length_m;
-    } else if (glm::length(speed) > kInPlace_m) {
-      ahead = glm::normalize(speed);
-    }
-    const glm::dvec3 target = jump_.takeoff_feet_in_world + *wish_.length_m * ahead;
-    moved.x = target.x - landing.x;
-    moved.z = target.z - landing.z;
-  }
-  return moved;
 }
 
 Result<double> JumpPlanner::takeoff_speed() const {
@@ -160,7 +140,7 @@ Result<double> JumpPlanner::takeoff_speed() const {
 }
 
 Status JumpPlanner::solve_flight() {
-  moved_m_ = landing_moved();
+  moved_m_ = landing_moved(jump_, wish_);
   if (jump_.touchdown) {
     touchdown_ = jump_.touchdown;
     touchdown_->p_in_world += moved_m_;
@@ -259,16 +239,18 @@ Error JumpPlanner::push_refused() const {
                        " above the floor, another push_s, or a larger strength_g");
 }
 
+void JumpPlanner::add_friction_finding(const char* phase) {
+  findings_.push_back({Severity::kFair,
+                       "friction",
+                       phase,
+                       "needs a horizontal force beyond the friction of the floor",
+                       "choose a shorter length or a longer push"});
+}
+
 Status JumpPlanner::solve_push() {
   push_ = derive_support(reference_.push(), push_wish(takeoff_.velocity_m_s.y));
   if (!push_) return push_refused();
-  if (!push_->within_friction()) {
-    findings_.push_back({Severity::kFair,
-                         "friction",
-                         "push",
-                         "needs a horizontal force beyond the friction of the floor",
-                         "choose a shorter length or a longer push"});
-  }
+  if (!push_->within_friction()) add_friction_finding("push");
   return Done{};
 }
 
@@ -292,8 +274,7 @@ Status JumpPlanner::solve_landing() {
     delay_s_ = takeoff_.time_s - jump_.takeoff.time_s;
     return Done{};
   }
-  const double captured_s =
-      reference_.landing()->duration_s() * std::sqrt(jump_.gravity_m_s2 / gravity_m_s2_);
+  const double captured_s = reference_.landing()->duration_s() * time_scale_;
   for (const double factor : kLandingFactors) {
     double duration_s = factor * captured_s;
     delay_s_ = touchdown_->time_s + duration_s - reference_.landing()->end.time_s;
@@ -308,6 +289,7 @@ Status JumpPlanner::solve_landing() {
                        landing_wish(duration_s));
     if (landing_) {
       rest_->time_s = touchdown_->time_s + duration_s;
+      if (!landing_->within_friction()) add_friction_finding("landing");
       return Done{};
     }
   }

@@ -30,7 +30,7 @@ class JumpPlanner {
   [[nodiscard]] Result<double> takeoff_speed() const;
   /// Moves the landing so that the horizontal velocity of the flight is the captured one.
   void keep_level_speed(double flight_s);
-  [[nodiscard]] glm::dvec3 landing_moved() const;
+  void add_friction_finding(const char* phase);
   [[nodiscard]] Status solve_push();
   [[nodiscard]] Status solve_landing();
   [[nodiscard]] SupportWish push_wish(double speed_m_s) const;

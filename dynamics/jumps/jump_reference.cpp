@@ -50,7 +50,9 @@ std::vector<SplineCurve> acceleration_curves(const BodyTrack& track, double cuto
     const ChosenPenalties chosen =
         choose_penalties(smoothing, std::vector<std::vector<std::size_t>>{used});
     smoothing.splines[0].set_penalty(
-        std::max(chosen.groups[0], penalty_of_half_power(cutoff_hz, track.rate.hz, {3})));
+        std::clamp(penalty_of_half_power(cutoff_hz, track.rate.hz, {3}),
+                   chosen.groups[0],
+                   std::max(chosen.groups[0], max_spline_penalty({3}))));
   } else {
     smoothing.splines[0].set_penalty(1.0);
   }

@@ -10,14 +10,15 @@
 namespace marey::dynamics {
 
 /// Wanted properties of a jump, any that do not contradict each other. The others keep
-/// the captured jump's values.
+/// the captured jump's values: rise, durations, horizontal velocity.
 struct JumpWish {
   /// Highest point of the centre of mass: above the floor of the take-off, or added to
   /// the captured one. At most one of both. [m]
   std::optional<double> apex_m{};
   std::optional<double> apex_by_m{};
   std::optional<double> airtime_s{};
-  /// Horizontal distance between the middles of the soles at take-off and landing.
+  /// Horizontal distance between the middles of the soles at take-off and landing. The
+  /// direction is the captured one; that of the flight, or +Z, for a jump in place.
   std::optional<double> length_m{};
   /// Middle of the soles at landing, on the floor. Excludes length_m and box_m.
   std::optional<glm::dvec3> landing_in_world{};
@@ -51,6 +52,10 @@ struct JumpTraits {
   std::optional<double> deepest_m{};  ///< Lowest height of the centre of mass.
   double friction = 0.8;              ///< Horizontal force per vertical force, at most.
 };
+
+/// A capture whose gravity is within this factor of the right one falls at a wrong rate,
+/// and keeps its times. Beyond it, the motion was scaled from another body.
+inline constexpr double kCaptureGravityFactor = 1.34;
 
 /// Choices of a plan that are not wishes.
 struct PlanJumpOptions {

@@ -28,4 +28,10 @@ namespace marey::dynamics {
                                          const JumpTraits& traits = {},
                                          const PlanJumpOptions& options = {});
 
+/// The plan would outlive a temporary reference.
+Result<JumpPlan> plan_jump(const JumpReference&&,
+                           const JumpWish&,
+                           const JumpTraits& = {},
+                           const PlanJumpOptions& = {}) = delete;
+
 }  // namespace marey::dynamics

@@ -55,6 +55,17 @@ std::optional<std::variant<ForcePush, ThesisPush>> vertical_push(
     if (!made) return std::nullopt;
     return *made;
   }
+  ends = thesis_ends(reference, wish);
+  const auto made =
+      choose_thesis_push(ends, near_point_cost(wish.lowest.at, wish.lowest.height_m));
+  if (!made) return std::nullopt;
+  return *made;
+}
+
+}  // namespace
+
+PushEnds thesis_ends(const SupportReference& reference, const SupportWish& wish) {
+  PushEnds ends = ends_of(wish, 1);
   const double scale = wish.gravity_m_s2 / reference.gravity_m_s2;
   ends.start_m_s2 =
       std::max(scale * reference.axes[1].force_m_s2.front() - wish.gravity_m_s2,
@@ -65,13 +76,8 @@ std::optional<std::variant<ForcePush, ThesisPush>> vertical_push(
   ends.end_m_s2 =
       std::max(scale * reference.axes[1].force_m_s2.back() - wish.gravity_m_s2,
                -wish.gravity_m_s2);
-  const auto made =
-      choose_thesis_push(ends, near_point_cost(wish.lowest.at, wish.lowest.height_m));
-  if (!made) return std::nullopt;
-  return *made;
+  return ends;
 }
-
-}  // namespace
 
 double SupportPush::height_m(double t_s) const {
   if (const auto* force = std::get_if<ForcePush>(&vertical_)) return force->height_m(t_s);
@@ -165,6 +171,9 @@ std::optional<SupportPush> derive_support(const SupportReference& reference,
     out.across_[static_cast<std::size_t>(axis)] = *made;
   }
   out.measure();
+  if (wish.law == PushLawKind::kThesis && out.peak_force_m_s2_ > wish.max_force_m_s2) {
+    return std::nullopt;
+  }
   return out;
 }
 

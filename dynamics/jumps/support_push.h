@@ -51,11 +51,11 @@ class SupportPush {
   /// False: horizontal forces exceed the friction at some instant, since no others meet
   /// the ends.
   [[nodiscard]] bool within_friction() const { return within_friction_; }
-  /// Time and height of the lowest point, to 1e-6 of the duration.
+  /// Lowest point: share of the duration, to 1e-6, and height.
   [[nodiscard]] LowestPoint lowest() const { return lowest_; }
-  /// Highest point before the end. [m]
+  /// Highest point, ends included. [m]
   [[nodiscard]] double highest_m() const { return highest_m_; }
-  /// Largest vertical force. [m/s^2]
+  /// Largest vertical force at 65 instants. [m/s^2]
   [[nodiscard]] double peak_force_m_s2() const { return peak_force_m_s2_; }
 
  private:
@@ -74,9 +74,17 @@ class SupportPush {
   double highest_m_ = 0.0;
 };
 
+/// Returns the ends of the thesis law for a wish: accelerations are the captured force's,
+/// at least free fall. An upward velocity below 0.1 m/s at the start counts as 0, since
+/// the law needs a body that stands or falls.
+[[nodiscard]] PushEnds thesis_ends(const SupportReference& reference,
+                                   const SupportWish& wish);
+
 /// Derives the support that meets the wish. The vertical axis is solved first; horizontal
 /// forces then are within the friction cone (each axis within 0.707 of it, or within what
-/// the captured motion had). nullopt: the vertical push does not exist. Some ten
+/// the captured motion had). With the thesis law the
+/// strength bounds the peak; `deepest_m` and `highest_m` are not used. nullopt: the
+/// vertical push, or that of a horizontal axis, does not exist. Some ten
 /// microseconds with the force law; allocates nothing with it.
 [[nodiscard]] std::optional<SupportPush> derive_support(const SupportReference& reference,
                                                         const SupportWish& wish);

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "core/base/assert.h"
+
 namespace marey::dynamics {
 namespace {
 
@@ -191,6 +193,7 @@ void DualActiveSet::drop(int index, bool at_max) {
 }
 
 void DualActiveSet::release(const Active& active, bool at_max) {
+  MAREY_ASSERT(active.elastic >= 0);
   released_[at(active.elastic)] = at_max ? -active.sign : active.sign;
 }
 

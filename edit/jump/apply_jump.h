@@ -19,7 +19,8 @@ namespace marey::edit {
 /// its angular momentum is constant, unless `keep_momentum` is false. Everything after
 /// the landing is displaced with it, by whole frames in time, and constraints with it.
 /// Phases become annotations "phase:push", "phase:flight" and "phase:landing". Masses are
-/// EditInputs::masses or de Leva's. A jump without wishes keeps its poses to the bit.
+/// EditInputs::masses or de Leva's. A jump without wishes keeps its poses to the bit,
+/// whatever its captured gravity.
 ///
 /// Figures, each with the captured value as captured_NAME where there is one: start_s,
 /// lowest_s, takeoff_s, apex_s, touchdown_s, rest_s, rise_m, airtime_s, takeoff_m_s,

@@ -64,18 +64,11 @@ dynamics::PushEnds ends_of_push(const dynamics::JumpReference& reference,
   const dynamics::SupportReference& push = reference.push();
   const dynamics::ComState end = plan != nullptr ? plan->takeoff() : push.end;
   const double gravity_m_s2 = plan != nullptr ? plan->gravity_m_s2() : push.gravity_m_s2;
-  const double scale = gravity_m_s2 / push.gravity_m_s2;
-  dynamics::PushEnds out;
-  out.start_m = push.start.p_in_world.y;
-  out.start_m_s = push.start.velocity_m_s.y;
-  out.end_m = end.p_in_world.y;
-  out.end_m_s = end.velocity_m_s.y;
-  out.duration_s = end.time_s - push.start.time_s;
-  out.gravity_m_s2 = gravity_m_s2;
-  const auto& force = push.axes[1].force_m_s2;
-  out.start_m_s2 = std::max(scale * force.front() - gravity_m_s2, -gravity_m_s2);
-  out.end_m_s2 = std::max(scale * force.back() - gravity_m_s2, -gravity_m_s2);
-  return out;
+  dynamics::SupportWish wish;
+  wish.start = push.start;
+  wish.end = end;
+  wish.gravity_m_s2 = gravity_m_s2;
+  return dynamics::thesis_ends(push, wish);
 }
 
 }  // namespace

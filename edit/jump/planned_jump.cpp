@@ -16,20 +16,16 @@
 namespace marey::edit {
 namespace {
 
-/// Legs of an adult, and the ratios to it within which a body falls as on earth.
+/// Legs of an adult.
 constexpr double kAdultLeg_m = 0.9;
-constexpr double kSmallBody = 0.75;
-constexpr double kLargeBody = 1.25;
 
-dynamics::FindJumpsOptions find_options(const JumpOp& op, const EditState& state) {
+dynamics::FindJumpsOptions find_options(const EditState& state) {
   dynamics::FindJumpsOptions out;
   const double size = state.map.leg_length_m / kAdultLeg_m;
-  if (size < kSmallBody || size > kLargeBody) {
+  if (size < 1.0 / dynamics::kCaptureGravityFactor ||
+      size > dynamics::kCaptureGravityFactor) {
     out.expected_fall_m_s2 = dynamics::kStandardGravity_m_s2 * size;
-  } else {
-    out.gravity_m_s2 = dynamics::kStandardGravity_m_s2;
   }
-  static_cast<void>(op);
   return out;
 }
 
@@ -53,14 +49,11 @@ Result<FoundJumps> find_state_jumps(const JumpOp& op,
   const auto span = resolve_span(state, context.op.span);
   if (!span) return span.error();
   FoundJumps out;
-  out.masses = context.inputs.masses;
-  if (out.masses.empty()) {
-    auto masses = retarget::place_masses(state.motion.skeleton, state.map, {});
-    if (!masses) return masses.error();
-    out.masses = std::move(*masses);
-  }
+  auto masses = masses_of(context, state);
+  if (!masses) return masses.error();
+  out.masses = std::move(*masses);
   out.track = retarget::body_track(state.motion, state.map, out.masses);
-  dynamics::FindJumpsOptions options = find_options(op, state);
+  dynamics::FindJumpsOptions options = find_options(state);
   if (op.push_start) {
     const auto frame = resolve_moment(state, *op.push_start);
     if (!frame) {

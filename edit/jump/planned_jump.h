@@ -21,7 +21,7 @@ namespace marey::edit {
 
 /// Jumps of a motion, and the one that an operation changes.
 struct FoundJumps {
-  std::vector<PointMass> masses;  ///< De Leva's.
+  std::vector<PointMass> masses;  ///< masses_of().
   BodyTrack track;
   std::vector<dynamics::Jump> jumps;  ///< All whose take-off is within the span.
   std::size_t chosen = 0;             ///< Index of JumpOp::jump.

@@ -17,6 +17,7 @@ namespace {
 constexpr double kJumpToMm = 1e3;
 /// Smaller errors are not reported. [m]
 constexpr double kShownShortLeg_m = 0.001;
+constexpr double kShownFoot_m = 0.001;
 
 /// Adds a new value and the captured one.
 void add_pair(OpReport& report, const char* name, double made, double captured) {
@@ -84,7 +85,7 @@ void report_jump_body(const retarget::FollowComReport& body,
   report.figures.emplace_back("slide_mm", kJumpToMm * body.worst_foot_m);
   report.figures.emplace_back("raised_heel_mm", kJumpToMm * body.raised_heel_m);
   report.figures.emplace_back("short_leg_mm", kJumpToMm * body.short_leg_m);
-  if (body.worst_foot_m > kShownShortLeg_m) {
+  if (body.worst_foot_m > kShownFoot_m) {
     report.findings.push_back(
         fair_finding("foot",
                      "feet",
@@ -115,6 +116,15 @@ void report_jump_momentum(const dynamics::MomentumRepair& repair, OpReport& repo
   report.figures.emplace_back("captured_momentum_kg_m2_s", repair.sd_before_kg_m2_s);
   report.figures.emplace_back("turn_deg", repair.largest_turn_rad * kDegreesPerRadian);
   if (repair.applied) return;
+  if (repair.largest_turn_rad <= 0.0) {
+    report.findings.push_back(
+        fair_finding("momentum",
+                     "flight",
+                     "no rotation makes the angular momentum constant, so the captured "
+                     "rotations are kept",
+                     "check the rotations of the flight"));
+    return;
+  }
   report.findings.push_back(
       fair_finding(
           "momentum",

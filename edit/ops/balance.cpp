@@ -152,7 +152,7 @@ Result<EditState> apply_balance(const BalanceOp& op,
   }
   const auto weights = op_weights(state, context.op);
   if (!weights) return weights.error();
-  const auto masses = retarget::place_masses(state.motion.skeleton, state.map, {});
+  const auto masses = masses_of(context, state);
   if (!masses) return masses.error();
   if (op.mode == EditBalance::kZmp) {
     return balanced_by_zmp(context, state, *masses, *weights, report);

@@ -32,6 +32,11 @@ struct OpContext {
   const EditInputs& inputs;
 };
 
+/// Returns the masses of the inputs, or de Leva's where these have none. Errors:
+/// retarget::place_masses()'s.
+[[nodiscard]] Result<std::vector<PointMass>> masses_of(const OpContext& context,
+                                                       const EditState& state);
+
 /// Results of one operation, for its report.
 struct OpReport {
   int index = 0;     ///< In EditRecipe::ops.

@@ -52,7 +52,7 @@ class ComCloser {
   glm::dvec3 find_root(const glm::dvec3& com_in_world, Try& last, int& evaluations);
   void measure(const glm::dvec3& com_in_world, const Pose& pose, ClosedFrame& out);
 
-  const ComFollower& body_;
+  ComFollower body_;
   std::array<StandingLeg, 2> legs_;
   std::vector<std::size_t> part_of_mass_;  ///< 0: not a leg's; else 1 + 4 side + part.
   double mass_kg_ = 0.0;
