@@ -125,6 +125,8 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
       std::chrono::nanoseconds(static_cast<long long>(1e6 * arguments.wait_ms));
   catch_stop_signals();
   if (!arguments.seconds) console.say("live; Ctrl-C ends it");
+  if (live.settings.balance_preview)
+    console.say("poses are balanced and sent 0.8 s late");
   auto figures = run_live(live,
                           chain,
                           *outputs,
@@ -211,6 +213,12 @@ void add_live_command(CLI::App& app,
                    live.vrchat,
                    "Receiver of VRChat trackers: HOST[:PORT]; may be repeated")
       ->allow_extra_args(false);
+  command
+      ->add_option("--balance",
+                   live.balance,
+                   "off, or preview: sends all poses 0.8 s later, moved so that the zero "
+                   "moment point stays nearer to the feet that stand")
+      ->check(one_of({"off", "preview"}));
   command->add_option("--record", live.record, "Folder for the take of this run");
   command
       ->add_flag("--calibrate",

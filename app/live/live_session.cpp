@@ -282,6 +282,7 @@ Result<OpenedLive> open_live(const LiveArguments& arguments, Console& console) {
     out.vrchat.push_back(*std::move(address));
   }
   out.settings.vrchat = !out.vrchat.empty();
+  out.settings.balance_preview = arguments.balance == "preview";
   out.settings.camera_sigma_m = mean_centre_sigma_m(out.calibration.quality);
   out.settings.lag_known.assign(chosen->size(), false);
   out.detector.families = session->families;

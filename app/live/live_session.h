@@ -41,6 +41,7 @@ struct LiveArguments {
   std::optional<int> vmc_listen;    ///< nullopt: VMC's own port, if it is free.
   bool vmc_send_only = false;       ///< Receives no VMC commands.
   std::vector<std::string> vrchat;  ///< "HOST[:PORT]".
+  std::string balance = "off";      ///< "off" or "preview".
   std::filesystem::path record;     ///< Folder of the take; empty: not recorded.
   std::optional<double> seconds;
   double wait_ms = 50.0;

@@ -71,6 +71,16 @@ Result<LiveChain> LiveChain::make(const Body& body,
     chain.streams_.push_back({stream, *std::move(vmc_body), *std::move(encoder), {}});
   }
   chain.packets_.resize(chain.streams_.size());
+  if (settings.balance_preview) {
+    std::vector<const Skeleton*> bodies{&chain.performer()};
+    for (const OpenedAvatar& avatar : avatars) bodies.push_back(&avatar.skeleton);
+    auto preview = LivePreview::make(bodies, settings.rate);
+    if (!preview) return preview.error();
+    chain.preview_ = *std::move(preview);
+    chain.newest_avatars_ = chain.avatar_poses_;
+    if (!avatars.empty()) chain.dragged_ = avatars.front().skeleton;
+    chain.world_from_dragged_.resize(chain.dragged_.joints.size());
+  }
   if (settings.vrchat) {
     // The performer's rest pose is a T-pose.
     chain.trackers_.emplace(chain.performer());
@@ -97,14 +107,15 @@ const LiveResult& LiveChain::step(const LiveInstant& instant,
   const Stopwatch retargeting;
   if (result_.track.state != TrackState::kWaiting) {
     retarget_avatars(since_last_s);
-    drag(requests, since_last_s);
   }
+  if (preview_) preview();
+  if (result_.track.state != TrackState::kWaiting) drag(requests, since_last_s);
   result_.retarget_s = retargeting.seconds();
   const Stopwatch encoding;
   encode(instant.time, requests);
   result_.encode_s = encoding.seconds();
-  result_.pose = &pose_;
-  result_.uncertainty = uncertainty_;
+  result_.pose = preview_ ? &preview_->frame().performer : &pose_;
+  result_.uncertainty = preview_ ? preview_->frame().uncertainty : uncertainty_;
   result_.avatars = avatar_poses_;
   if (handles_) result_.handles = handles_->handles();
   result_.packets = packets_;
@@ -134,22 +145,37 @@ void LiveChain::retarget_avatars(double since_last_s) {
   for (std::size_t a = 0; a < retargets_.size(); ++a) {
     // After a relocalization the feet must not be dragged to the new position.
     if (was_lost_ && !is_lost) retargets_[a].reset();
-    retargets_[a].step(pose_, since_last_s, avatar_poses_[a]);
+    Pose& newest = preview_ ? newest_avatars_[a] : avatar_poses_[a];
+    retargets_[a].step(pose_, since_last_s, newest);
   }
   was_lost_ = is_lost;
+}
+
+/// Replaces the track and the poses of the avatars by those of the delayed frame.
+void LiveChain::preview() {
+  preview_->step(result_.number, result_.track, uncertainty_, pose_, newest_avatars_);
+  result_.track = preview_->frame().track;
+  avatar_poses_ = preview_->frame().avatars;
 }
 
 /// Adapts the first avatar to its handles. Not called before the body is found.
 void LiveChain::drag(const LiveRequests& requests, double since_last_s) {
   if (!handles_) return;
   for (const HandleRequest& request : requests.handles) handles_->ask(request);
+  Pose& avatar = avatar_poses_.front();
+  if (preview_) {
+    world_from_joints(dragged_, avatar, world_from_dragged_);
+    handles_->step(world_from_dragged_, preview_->frame().standing, since_last_s, avatar);
+    return;
+  }
   handles_->step(retargets_.front().world_from_joint(),
                  retargets_.front().standing(),
                  since_last_s,
-                 avatar_poses_.front());
+                 avatar);
 }
 
 void LiveChain::encode(Timestamp time, const LiveRequests& requests) {
+  const Pose& performer = preview_ ? preview_->frame().balanced_performer : pose_;
   live::VmcStatus status;
   status.tracking = result_.track.state == TrackState::kTracked && !requests.behind;
   for (std::size_t s = 0; s < streams_.size(); ++s) {
@@ -159,7 +185,8 @@ void LiveChain::encode(Timestamp time, const LiveRequests& requests) {
       if (asked.periods) stream.encoder.set_periods(*asked.periods);
       if (asked.info) stream.encoder.request_info();
     }
-    const Pose& pose = stream.what.avatar ? avatar_poses_[*stream.what.avatar] : pose_;
+    const Pose& pose =
+        stream.what.avatar ? avatar_poses_[*stream.what.avatar] : performer;
     stream.body.to_vmc(pose, stream.vmc_pose);
     const auto packets = stream.encoder.encode(time, stream.vmc_pose, status);
     packets_[s].resize(packets.size());
@@ -171,7 +198,7 @@ void LiveChain::encode(Timestamp time, const LiveRequests& requests) {
   // A body that was not found has no position.
   packets_.back().clear();
   if (result_.track.state == TrackState::kWaiting) return;
-  world_from_joints(tracker_.skeleton(), pose_, world_from_joint_);
+  world_from_joints(tracker_.skeleton(), performer, world_from_joint_);
   const auto packet = trackers_->encode(world_from_joint_);
   packets_.back().emplace_back(packet.begin(), packet.end());
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/live_chain/live_handles.h"
+#include "app/live_chain/live_preview.h"
 #include "app/live_chain/live_settings.h"
 #include "app/motion/retarget_files.h"
 #include "core/base/result.h"
@@ -24,12 +25,14 @@
 
 namespace marey::app {
 
-/// Result of one instant. Refers to data of the chain: valid until its next step.
+/// Result of one instant. Refers to data of the chain: valid until its next step. With
+/// LiveSettings::balance_preview, track, poses and uncertainty are those of the instant
+/// 0.8 s before.
 struct LiveResult {
   std::int64_t number = 0;
   Timestamp time{0};
   reconstruct::TrackReport track;
-  /// Pose of the performer; undefined while the track is waiting.
+  /// Pose of the performer as measured; undefined while the track is waiting.
   const Pose* pose = nullptr;
   std::span<const JointUncertainty> uncertainty;
   std::span<const Pose> avatars;  ///< In the order of the settings; see `pose`.
@@ -45,15 +48,17 @@ struct LiveResult {
 
 /// Computes the packets of every stream from the detections of the cameras: tag corners
 /// to the performer's pose, to the pose of every avatar, to packets. The first avatar is
-/// adapted to its dragged handles (app/live_chain/live_handles.h). The live run and the
-/// replay use this class. All state is in this object, and the clock is read only to
-/// measure durations, so the same instants and requests give the same bytes. Used by one
-/// thread at a time.
+/// adapted to its dragged handles (app/live_chain/live_handles.h), after the delay if the
+/// settings request a preview of balance (app/live_chain/live_preview.h). The live run
+/// and the replay use this class. All state is in this object, and the clock is read only
+/// to measure durations, so the same instants and requests give the same bytes. Used by
+/// one thread at a time.
 class LiveChain {
  public:
   /// `avatars` are in the order of `settings.avatars`.
   /// Errors: those of BodyTracker::create(), of LiveRetarget::make(), LiveHandles::make()
-  /// and VmcBody::make() (with the avatar's file), and of VmcEncoder::make().
+  /// and VmcBody::make() (with the avatar's file), of VmcEncoder::make() and
+  /// LivePreview::make().
   [[nodiscard]] static Result<LiveChain> make(const Body& body,
                                               std::span<const Camera> cameras,
                                               std::span<const OpenedAvatar> avatars,
@@ -79,6 +84,7 @@ class LiveChain {
             const LiveSettings& settings);
   void take_in(const LiveInstant& instant);
   void retarget_avatars(double since_last_s);
+  void preview();
   void drag(const LiveRequests& requests, double since_last_s);
   void encode(Timestamp time, const LiveRequests& requests);
 
@@ -87,6 +93,10 @@ class LiveChain {
   reconstruct::BodyTracker tracker_;
   std::vector<retarget::LiveRetarget> retargets_;
   std::optional<LiveHandles> handles_;  ///< Handles of the first avatar.
+  std::optional<LivePreview> preview_;
+  std::vector<Pose> newest_avatars_;  ///< Input of the preview; empty without it.
+  Skeleton dragged_;                  ///< Of the first avatar, for the preview.
+  std::vector<RigidTransform> world_from_dragged_;
   std::vector<Stream> streams_;
   std::optional<live::VrchatTrackers> trackers_;
   std::vector<RigidTransform> world_from_joint_;  ///< Joints of the performer.

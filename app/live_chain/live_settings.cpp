@@ -69,11 +69,19 @@ LiveSettings to_settings(const json& object) {
   if (const auto files = object.find("avatar_files"); files != object.end()) {
     settings.avatar_files = files->get<std::vector<std::string>>();
   }
+  settings.balance_preview = object.contains("balance");
   // Only takes that start during a run have it.
   if (const auto begin = object.find("vmc_begin_ns"); begin != object.end()) {
     settings.vmc_begin = Timestamp{begin->get<std::int64_t>()};
   }
   return settings;
+}
+
+/// Returns false for a balance that this version does not know. Takes without a preview
+/// have no value.
+bool is_balance_known(const json& object) {
+  const auto balance = object.find("balance");
+  return balance == object.end() || *balance == "preview";
 }
 
 bool can_be(const LiveSettings& settings) {
@@ -173,14 +181,17 @@ std::string live_settings_text(const LiveSettings& settings) {
               {"vrchat", settings.vrchat}};
   if (settings.vmc_begin) object["vmc_begin_ns"] = settings.vmc_begin->count();
   if (!settings.avatar_files.empty()) object["avatar_files"] = settings.avatar_files;
+  if (settings.balance_preview) object["balance"] = "preview";
   return text_of(object);
 }
 
 Result<LiveSettings> parse_live_settings(std::string_view text, const std::string& file) {
   // Only nlohmann-json throws here.
   try {
-    LiveSettings settings = to_settings(json::parse(text));
-    if (!can_be(settings)) return not_ours(file, "a value is out of range");
+    const json object = json::parse(text);
+    LiveSettings settings = to_settings(object);
+    if (!can_be(settings) || !is_balance_known(object))
+      return not_ours(file, "a value is out of range");
     return settings;
   } catch (const json::exception& problem) {
     return not_ours(file, problem.what());

@@ -40,6 +40,8 @@ struct LiveSettings {
   /// Time 0 of the VMC message T; nullopt: the first instant.
   std::optional<Timestamp> vmc_begin{};
   bool vrchat = false;  ///< Packets of the performer's trackers follow the streams'.
+  /// Poses are delayed by 0.8 s and balanced (app/live_chain/live_preview.h).
+  bool balance_preview = false;
 };
 
 /// Returns the name of a file as valid UTF-8: invalid bytes are replaced by U+FFFD.
