@@ -22,7 +22,8 @@
 namespace marey::app {
 namespace {
 
-constexpr double kPreviewMargin_m = 0.010;
+// Covers a part of the angular momentum, which the model leaves out.
+constexpr double kPreviewMargin_m = 0.020;
 constexpr double kMaxWantedShift_m = 0.15;
 // Time constant with which the wanted displacement ends without a zero moment point.
 constexpr double kPreviewEnd_s = 0.2;
