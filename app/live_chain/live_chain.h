@@ -95,7 +95,7 @@ class LiveChain {
   std::optional<LiveHandles> handles_;  ///< Handles of the first avatar.
   std::optional<LivePreview> preview_;
   std::vector<Pose> newest_avatars_;  ///< Input of the preview; empty without it.
-  Skeleton dragged_;                  ///< Of the first avatar, for the preview.
+  Skeleton dragged_;                  ///< Body of the first avatar, for the preview.
   std::vector<RigidTransform> world_from_dragged_;
   std::vector<Stream> streams_;
   std::optional<live::VrchatTrackers> trackers_;

@@ -26,7 +26,7 @@ struct PreviewedFrame {
   Pose balanced_performer;
   std::vector<Pose> avatars;  ///< Balanced.
   std::vector<JointUncertainty> uncertainty;
-  std::array<retarget::StandingFoot, 2> standing{};  ///< Of the performer.
+  std::array<retarget::StandingFoot, 2> standing{};  ///< Body of the performer.
 };
 
 /// Delays the poses of a live run by kDelay_s and displaces each body horizontally so

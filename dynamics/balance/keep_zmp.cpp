@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <numeric>
 
 #include "dynamics/balance/banded_cholesky.h"
@@ -389,7 +388,7 @@ KeepZmpResult keep_zmp(const KeepZmpInput& input, const KeepZmpOptions& options)
   for (const double factor : kPriceFactors) {
     out = solved(input, options, factor * options.price_m);
     if (!(out.max_shift_m < kDiverged * options.max_shift_m)) {  // Or not a number.
-      out = {};
+      out = KeepZmpResult{};
       out.shift_xz_m.assign(frames, glm::dvec2(0.0));
       continue;
     }
