@@ -11,6 +11,7 @@
 
 #include "dynamics/jumps/check_jump_wish.h"
 #include "dynamics/jumps/landing_moved.h"
+#include "dynamics/jumps/possible_speeds.h"
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -29,9 +30,12 @@ constexpr double kResidualGone_m = 0.03;
 constexpr double kResidualGoneFactor = 4.0;
 /// Contradicting wishes may differ by this.
 constexpr double kSameTime_s = 1e-3;
-/// Speeds that are tried for the range of a refused push.
-constexpr int kTriedSpeeds = 48;
+/// A lowest point at another share than this was not the wanted one.
+constexpr double kOtherLowest = 0.005;
+/// Largest speed of the range of a refused push, over the captured one.
 constexpr double kMostSpeed = 2.5;
+/// Height of the centre of mass in the deepest squat, over that at take-off.
+constexpr double kSquat = 0.4;
 /// A support may be this much higher than the captured one.
 constexpr double kOverCaptured_m = 0.002;
 /// Durations of a landing that are tried, as factors.
@@ -51,7 +55,9 @@ double time_scale(double captured_m_s2, double wanted_m_s2) {
 
 /// True if nothing is asked for: then the captured fall is kept, too.
 bool is_unchanged(const JumpWish& wish, const PlanJumpOptions& options) {
-  return wish.is_empty() && !options.ballistic && options.law == PushLawKind::kForce &&
+  JumpWish rest = wish;
+  if (rest.apex_by_m == 0.0) rest.apex_by_m.reset();
+  return rest.is_empty() && !options.ballistic && options.law == PushLawKind::kForce &&
          options.gravity_m_s2 == kStandardGravity_m_s2;
 }
 
@@ -190,6 +196,12 @@ void JumpPlanner::keep_level_speed(double flight_s) {
   rest_->p_in_world += farther;
 }
 
+double JumpPlanner::deepest_m(const SupportPush& captured, double floor_m) const {
+  const double takeoff_m = jump_.takeoff.p_in_world.y - jump_.takeoff_feet_in_world.y;
+  return std::min(captured.lowest().height_m - kOverCaptured_m,
+                  floor_m + kSquat * takeoff_m);
+}
+
 SupportWish JumpPlanner::push_wish(double speed_m_s) const {
   SupportWish out;
   out.start = jump_.start;
@@ -197,7 +209,8 @@ SupportWish JumpPlanner::push_wish(double speed_m_s) const {
   out.end.velocity_m_s.y = speed_m_s;
   out.gravity_m_s2 = gravity_m_s2_;
   out.max_force_m_s2 = strength_m_s2_;
-  out.deepest_m = traits_.deepest_m;
+  out.deepest_m = traits_.deepest_m.value_or(
+      deepest_m(reference_.push_model(), jump_.takeoff_feet_in_world.y));
   out.highest_m = std::max(reference_.push_model().highest_m(), out.end.p_in_world.y) +
                   kOverCaptured_m;
   out.friction = traits_.friction;
@@ -207,17 +220,8 @@ SupportWish JumpPlanner::push_wish(double speed_m_s) const {
 }
 
 Error JumpPlanner::push_refused() const {
-  const double wanted_m_s = takeoff_.velocity_m_s.y;
-  const double most_m_s =
-      kMostSpeed * std::max(std::abs(wanted_m_s), jump_.takeoff.velocity_m_s.y);
-  std::optional<double> low_m_s;
-  std::optional<double> high_m_s;
-  for (int k = 1; k <= kTriedSpeeds; ++k) {
-    const double speed_m_s = most_m_s * k / kTriedSpeeds;
-    if (!derive_support(reference_.push(), push_wish(speed_m_s))) continue;
-    if (!low_m_s) low_m_s = speed_m_s;
-    high_m_s = speed_m_s;
-  }
+  const auto speeds = possible_speeds(
+      reference_.push(), push_wish(0.0), kMostSpeed * jump_.takeoff.velocity_m_s.y);
   const auto apex = [&](double speed_m_s) {
     return metres(above_floor_m(takeoff_.p_in_world.y +
                                 0.5 * speed_m_s * speed_m_s / gravity_m_s2_));
@@ -225,7 +229,7 @@ Error JumpPlanner::push_refused() const {
   std::string cause = "cannot be pushed in " + seconds(push_s_) + " with at most " +
                       format_text("%.2f g", strength_m_s2_ / gravity_m_s2_);
   if (options_.law == PushLawKind::kThesis) cause += " by the thesis law";
-  if (!low_m_s) {
+  if (!speeds) {
     return bad_input("jump",
                      cause + ", nor can any other apex",
                      options_.law == PushLawKind::kThesis
@@ -234,8 +238,8 @@ Error JumpPlanner::push_refused() const {
   }
   return bad_input("jump",
                    cause,
-                   "choose an apex between " + apex(*low_m_s) + " and " +
-                       apex(*high_m_s) +
+                   "choose an apex between " + apex(speeds->low_m_s) + " and " +
+                       apex(speeds->high_m_s) +
                        " above the floor, another push_s, or a larger strength_g");
 }
 
@@ -250,6 +254,20 @@ void JumpPlanner::add_friction_finding(const char* phase) {
 Status JumpPlanner::solve_push() {
   push_ = derive_support(reference_.push(), push_wish(takeoff_.velocity_m_s.y));
   if (!push_) return push_refused();
+  const LowestPoint lowest = push_->lowest();
+  if (options_.lowest && options_.law == PushLawKind::kThesis &&
+      (std::abs(lowest.at - options_.lowest->at) > kOtherLowest ||
+       std::abs(lowest.height_m - options_.lowest->height_m) > kOverCaptured_m)) {
+    findings_.push_back(
+        {Severity::kFair,
+         "lowest",
+         "push",
+         "cannot have its lowest point there; the nearest possible one is "
+         "at " +
+             format_text("%.3f", lowest.at) + " of the push, at " +
+             metres(lowest.height_m),
+         "choose a point of the search space"});
+  }
   if (!push_->within_friction()) add_friction_finding("push");
   return Done{};
 }
@@ -262,8 +280,11 @@ SupportWish JumpPlanner::landing_wish(double duration_s) const {
   out.gravity_m_s2 = gravity_m_s2_;
   out.max_force_m_s2 = std::max(
       strength_m_s2_, gravity_m_s2_ * kStrengthOfPeak * reference_.landing()->peak_g);
-  out.deepest_m = traits_.deepest_m;
-  if (out.deepest_m) *out.deepest_m += moved_m_.y;
+  const double floor_m =
+      jump_.landing_feet_in_world.value_or(jump_.takeoff_feet_in_world).y;
+  out.deepest_m =
+      traits_.deepest_m.value_or(deepest_m(*reference_.landing_model(), floor_m)) +
+      moved_m_.y;
   out.highest_m = reference_.landing_model()->highest_m() + moved_m_.y + kOverCaptured_m;
   out.friction = traits_.friction;
   return out;

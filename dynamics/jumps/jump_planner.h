@@ -33,6 +33,8 @@ class JumpPlanner {
   void add_friction_finding(const char* phase);
   [[nodiscard]] Status solve_push();
   [[nodiscard]] Status solve_landing();
+  /// Lowest height of the centre of mass that legs permit above a floor.
+  [[nodiscard]] double deepest_m(const SupportPush& captured, double floor_m) const;
   [[nodiscard]] SupportWish push_wish(double speed_m_s) const;
   [[nodiscard]] SupportWish landing_wish(double duration_s) const;
   /// Returns the error of a push that does not exist, with the possible apexes.

@@ -49,8 +49,10 @@ struct JumpTraits {
   /// Largest vertical push in g. nullopt: 1.3 times the captured one's peak, at
   /// least 2.5.
   std::optional<double> strength_g{};
-  std::optional<double> deepest_m{};  ///< Lowest height of the centre of mass.
-  double friction = 0.8;              ///< Horizontal force per vertical force, at most.
+  /// Lowest height of the centre of mass. nullopt: 0.4 of that at take-off above the
+  /// floor, or the captured one if that is lower.
+  std::optional<double> deepest_m{};
+  double friction = 0.8;  ///< Horizontal force per vertical force, at most.
 };
 
 /// A capture whose gravity is within this factor of the right one falls at a wrong rate,

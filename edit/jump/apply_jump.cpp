@@ -77,6 +77,28 @@ std::optional<FrameRange> flight_of(const dynamics::JumpPlan& plan,
                                  state.motion.poses.size());
 }
 
+/// Makes the angular momentum of a flight constant.
+dynamics::MomentumRepair repaired(const FoundJumps& found,
+                                  const FrameRange& flight,
+                                  Motion& motion) {
+  const auto count = static_cast<std::size_t>(flight.last - flight.first + 1);
+  return dynamics::keep_angular_momentum(
+      motion.skeleton,
+      found.masses,
+      motion.rate,
+      std::span(motion.poses).subspan(static_cast<std::size_t>(flight.first), count));
+}
+
+/// Returns the standard deviation of the captured flight's angular momentum.
+double captured_momentum_sd(const FoundJumps& found, const Motion& captured) {
+  const dynamics::Jump& jump = found.jumps[found.chosen];
+  const auto flight = dynamics::flight_frames(
+      jump.takeoff.time_s, jump.touchdown->time_s, captured.rate, captured.poses.size());
+  if (!flight) return 0.0;
+  Motion copy = captured;
+  return repaired(found, *flight, copy).sd_before_kg_m2_s;
+}
+
 /// Displaces the constraints that act after the landing.
 void move_landed_constraints(const dynamics::JumpPlan& plan, EditState& state) {
   if (!plan.touchdown()) return;
@@ -138,15 +160,9 @@ Result<EditState> apply_jump(const JumpOp& op,
   const retarget::FollowComReport body = follow_plan(*found, *plan, state, frames, out);
   report_jump_body(body, state.motion.rate, report);
   if (const auto flight = flight_of(*plan, out); flight && op.keep_momentum) {
-    const auto count = static_cast<std::size_t>(flight->last - flight->first + 1);
-    report_jump_momentum(
-        dynamics::keep_angular_momentum(
-            out.motion.skeleton,
-            found->masses,
-            out.motion.rate,
-            std::span(out.motion.poses)
-                .subspan(static_cast<std::size_t>(flight->first), count)),
-        report);
+    dynamics::MomentumRepair repair = repaired(*found, *flight, out.motion);
+    repair.sd_before_kg_m2_s = captured_momentum_sd(*found, state.motion);
+    report_jump_momentum(repair, report);
   }
   move_landed_constraints(*plan, out);
   add_phases(*plan, out);

@@ -70,11 +70,12 @@ Result<FoundJumps> find_state_jumps(const JumpOp& op,
     out.jumps.push_back(std::move(jump));
   }
   if (out.jumps.empty()) {
-    return bad_input("jump",
-                     context.op.span.is_whole()
-                         ? "the motion has no time in which nothing bears the body"
-                         : "the span has no time in which nothing bears the body",
-                     "choose a motion, or a span, with a flight of at least 0.05 s");
+    return bad_input(
+        "jump",
+        context.op.span.is_whole()
+            ? "the motion has no time in which nothing bears the body after a support"
+            : "the span has no time in which nothing bears the body after a support",
+        "choose a motion, or a span, with a flight of at least 0.05 s");
   }
   if (op.jump < 1 || static_cast<std::size_t>(op.jump) > out.jumps.size()) {
     const std::string count = std::to_string(out.jumps.size());
@@ -85,6 +86,13 @@ Result<FoundJumps> find_state_jumps(const JumpOp& op,
         out.jumps.size() == 1 ? "choose 1" : "choose 1 to " + count);
   }
   out.chosen = static_cast<std::size_t>(op.jump - 1);
+  const dynamics::Jump& chosen = out.jumps[out.chosen];
+  if (op.push_start && chosen.start_kind != dynamics::PushStart::kGiven) {
+    return bad_input("push_start",
+                     "is not in the support before the take-off at " +
+                         format_text("%.3f s", chosen.takeoff.time_s),
+                     "choose an earlier instant, after the flight before");
+  }
   return out;
 }
 

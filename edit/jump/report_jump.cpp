@@ -18,6 +18,7 @@ constexpr double kJumpToMm = 1e3;
 /// Smaller errors are not reported. [m]
 constexpr double kShownShortLeg_m = 0.001;
 constexpr double kShownFoot_m = 0.001;
+constexpr double kShownCom_m = 0.005;
 
 /// Adds a new value and the captured one.
 void add_pair(OpReport& report, const char* name, double made, double captured) {
@@ -96,6 +97,17 @@ void report_jump_body(const retarget::FollowComReport& body,
                          ", since the legs are too short there",
                      "choose a smaller change, or another push_s")
             .measured(kJumpToMm * body.worst_foot_m, std::nullopt, "mm"));
+  }
+  if (body.short_leg_m < kShownShortLeg_m && body.worst_com_m > kShownCom_m) {
+    report.findings.push_back(
+        fair_finding("folded_leg",
+                     "legs",
+                     "legs do not fold as far as planned; the centre of mass is off its "
+                     "plan by up to " +
+                         format_text("%.0f mm", kJumpToMm * body.worst_com_m) + " at " +
+                         format_text("%.2f s", body.worst_com_frame / rate.hz),
+                     "choose a smaller change, or another push_s")
+            .measured(kJumpToMm * body.worst_com_m, std::nullopt, "mm"));
   }
   if (body.short_leg_m < kShownShortLeg_m) return;
   report.findings.push_back(
