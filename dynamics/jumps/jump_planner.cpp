@@ -244,11 +244,11 @@ Error JumpPlanner::push_refused() const {
 }
 
 void JumpPlanner::add_friction_finding(const char* phase) {
-  findings_.push_back({Severity::kFair,
-                       "friction",
-                       phase,
-                       "needs a horizontal force beyond the friction of the floor",
-                       "choose a shorter length or a longer push"});
+  findings_.push_back(
+      fair_finding("friction",
+                   phase,
+                   "needs a horizontal force beyond the friction of the floor",
+                   "choose a shorter length or a longer push"));
 }
 
 Status JumpPlanner::solve_push() {
@@ -258,15 +258,11 @@ Status JumpPlanner::solve_push() {
   if (options_.lowest && options_.law == PushLawKind::kThesis &&
       (std::abs(lowest.at - options_.lowest->at) > kOtherLowest ||
        std::abs(lowest.height_m - options_.lowest->height_m) > kOverCaptured_m)) {
-    findings_.push_back(
-        {Severity::kFair,
-         "lowest",
-         "push",
-         "cannot have its lowest point there; the nearest possible one is "
-         "at " +
-             format_text("%.3f", lowest.at) + " of the push, at " +
-             metres(lowest.height_m),
-         "choose a point of the search space"});
+    findings_.push_back(fair_finding(
+        "lowest",
+        "push",
+        "the nearest possible lowest point has a height of " + metres(lowest.height_m),
+        "choose a point of the search space"));
   }
   if (!push_->within_friction()) add_friction_finding("push");
   return Done{};
