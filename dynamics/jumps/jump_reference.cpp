@@ -25,6 +25,9 @@ constexpr double kNoForceLimit_m_s2 = 1e6;
 /// of a centre of mass are correlated from frame to frame, so cross-validation alone
 /// smooths too little. The residual keeps the rest.
 constexpr double kCutoffPerDuration = 7.0;
+/// Shorter pushes, whose start the user gave, are smoothed as one of this duration, since
+/// the landing has the same cut-off.
+constexpr double kShortestPush_s = 0.2;
 /// Share of a support in which its force rises from a flight's 0, and falls to it.
 constexpr double kFlightTaper = 0.06;
 /// A landing that the clip cuts counts if it lasts this long.
@@ -137,7 +140,9 @@ std::optional<JumpReference> JumpReference::make(const BodyTrack& track,
     out.path_.emplace_back(times, values);
   }
   const std::vector<SplineCurve> curves = acceleration_curves(
-      track, kCutoffPerDuration / (jump.takeoff.time_s - jump.start.time_s));
+      track,
+      kCutoffPerDuration /
+          std::max(kShortestPush_s, jump.takeoff.time_s - jump.start.time_s));
   for (std::size_t i = 0; i < count; ++i) {
     const double at_s = std::min(times[i], curves[1].end_s());
     out.push_g_.push_back(curves[1].at(at_s, 2) / jump.gravity_m_s2 + 1.0);
