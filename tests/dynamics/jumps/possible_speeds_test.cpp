@@ -15,7 +15,7 @@
 namespace marey::dynamics {
 namespace {
 
-TEST(PossibleSpeeds, AreTheBorderOfWhatIsPlanned) {
+TEST(PossibleSpeeds, AreTheBorderOfPossiblePushes) {
   const testing::ExactJump exact = testing::make_exact_jump();
   const auto reference = JumpReference::make(exact.track, exact.jump);
   ASSERT_TRUE(reference);
