@@ -20,9 +20,6 @@
 namespace marey::dynamics {
 namespace {
 
-/// A strength is at least this many g, and this many captured peaks.
-constexpr double kLeastStrength_g = 2.5;
-constexpr double kStrengthOfPeak = 1.3;
 /// Changes below this are rounding. [m]
 constexpr double kNoChange_m = 1e-9;
 /// The residual of the flight is gone at this change, at least.
@@ -81,9 +78,7 @@ JumpPlanner::JumpPlanner(const JumpReference& reference,
       options_(options),
       gravity_m_s2_(is_unchanged(wish, options) ? jump_.gravity_m_s2
                                                 : options.gravity_m_s2),
-      strength_m_s2_(gravity_m_s2_ *
-                     traits.strength_g.value_or(std::max(
-                         kLeastStrength_g, kStrengthOfPeak * reference.push().peak_g))),
+      strength_m_s2_(gravity_m_s2_ * traits.strength_g.value_or(reference.strength_g())),
       time_scale_(time_scale(jump_.gravity_m_s2, gravity_m_s2_)),
       push_s_(wish.push_s.value_or(reference.push().duration_s() * time_scale_)),
       takeoff_(jump_.takeoff) {}

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -17,6 +18,10 @@
 #include "core/signal/cubic_spline.h"
 
 namespace marey::dynamics {
+
+/// Strength of a body over the peak of a captured push, and the least strength. [g]
+inline constexpr double kStrengthOfPeak = 1.3;
+inline constexpr double kMinStrength_g = 2.5;
 
 /// A captured jump, prepared for changes: the forces of its push and landing, the path of
 /// the centre of mass, and the rest that these do not explain.
@@ -36,6 +41,10 @@ class JumpReference {
 
   [[nodiscard]] const Jump& jump() const { return jump_; }
   [[nodiscard]] const SupportReference& push() const { return *push_; }
+  /// Strength that a plan uses if none is given.
+  [[nodiscard]] double strength_g() const {
+    return std::max(kMinStrength_g, kStrengthOfPeak * push_->peak_g);
+  }
   /// nullptr: the clip ends before the landing does.
   [[nodiscard]] const SupportReference* landing() const { return landing_.get(); }
   [[nodiscard]] const SupportPush& push_model() const { return push_model_; }

@@ -343,7 +343,7 @@ class ForcePushMaker {
   ForceEnds at_ends_;
   DualActiveSet program_{spline_tables().root};
   ForcePush push_;
-  std::optional<std::size_t> lowest_;  ///< Of fall_then_rise.
+  std::optional<std::size_t> lowest_;  ///< Instant for fall_then_rise.
 };
 
 std::optional<ForcePush> derive_push(const PushReference& reference,

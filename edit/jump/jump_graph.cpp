@@ -14,8 +14,6 @@ namespace {
 constexpr double kMostPoints = 600.0;
 /// Time shown before and after the jump. [s]
 constexpr double kShownAround_s = 0.15;
-constexpr double kLeastShownStrength_g = 2.5;
-constexpr double kShownStrengthOfPeak = 1.3;
 
 void add_captured(const dynamics::JumpReference& reference,
                   double time_s,
@@ -76,18 +74,20 @@ dynamics::PushEnds ends_of_push(const dynamics::JumpReference& reference,
 Result<JumpGraph> jump_graph(const JumpOp& op,
                              const OpContext& context,
                              const EditState& state) {
-  JumpOp any = op;
-  any.jump = 1;
-  auto found = find_state_jumps(any, context, state);
-  if (!found) return found.error();
   JumpGraph out;
-  out.jumps = found->jumps;
-  if (op.jump < 1 || static_cast<std::size_t>(op.jump) > found->jumps.size()) {
-    const auto exact = find_state_jumps(op, context, state);
-    if (!exact) out.refusal = exact.error().message();
+  const auto found = find_state_jumps(op, context, state);
+  if (!found) {
+    // The list of jumps helps to choose another number or start.
+    JumpOp any = op;
+    any.jump = 1;
+    any.push_start.reset();
+    const auto others = find_state_jumps(any, context, state);
+    if (!others) return others.error();
+    out.jumps = others->jumps;
+    out.refusal = found.error().message();
     return out;
   }
-  found->chosen = static_cast<std::size_t>(op.jump - 1);
+  out.jumps = found->jumps;
   const auto reference = jump_reference(*found);
   if (!reference) {
     out.refusal = reference.error().message();
@@ -96,8 +96,7 @@ Result<JumpGraph> jump_graph(const JumpOp& op,
   const double shown_s = (*reference)->jump_end_s() + 2.0 * kShownAround_s -
                          (*reference)->jump().start.time_s;
   const double step_s = std::max(1.0 / state.motion.rate.hz, shown_s / kMostPoints);
-  out.strength_g = op.strength_g.value_or(std::max(
-      kLeastShownStrength_g, kShownStrengthOfPeak * (*reference)->push().peak_g));
+  out.strength_g = op.strength_g.value_or((*reference)->strength_g());
   const auto plan = plan_of_op(op, **reference, state.motion.rate);
   if (!plan) {
     out.refusal = plan.error().message();
