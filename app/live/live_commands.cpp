@@ -154,6 +154,30 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
   return exit;
 }
 
+/// Adds the options of VMC: receivers, packets, and commands that are received.
+void add_vmc_options(CLI::App& command, LiveArguments& live) {
+  command
+      .add_option(
+          "--vmc", live.vmc, "Receiver of VMC: [AVATAR=]HOST[:PORT]; may be repeated")
+      ->allow_extra_args(false);
+  command.add_option("--vmc-rest", live.vmc_rest, "Pose without rotations: vrm0 or raw")
+      ->check(one_of({"vrm0", "raw"}));
+  command
+      .add_option("--vmc-mtu",
+                  live.vmc_mtu,
+                  "Largest packet in bytes; 0: one bundle a frame, as on this machine")
+      ->check(zero_or_between(live::kMinPacketBytes, live::kMaxPacketBytes));
+  CLI::Option* listens =
+      command.add_option("--vmc-listen", live.vmc_listen, "Port to receive commands on")
+          ->check(whole_between(1, 65535));
+  command.add_flag("--vmc-send-only", live.vmc_send_only, "Receive no commands")
+      ->excludes(listens);
+  command
+      .add_flag("--vmc-deaf", live.vmc_send_only)  // The former name.
+      ->excludes(listens)
+      ->group("");
+}
+
 }  // namespace
 
 Exit run_live_command(const LiveArguments& arguments, Console& console) {
@@ -188,26 +212,7 @@ void add_live_command(CLI::App& app,
                    live.avatars,
                    "Body to retarget to: " + body_extensions() + "; may be repeated")
       ->allow_extra_args(false);
-  command
-      ->add_option(
-          "--vmc", live.vmc, "Receiver of VMC: [AVATAR=]HOST[:PORT]; may be repeated")
-      ->allow_extra_args(false);
-  command->add_option("--vmc-rest", live.vmc_rest, "Pose without rotations: vrm0 or raw")
-      ->check(one_of({"vrm0", "raw"}));
-  command
-      ->add_option("--vmc-mtu",
-                   live.vmc_mtu,
-                   "Largest packet in bytes; 0: one bundle a frame, as on this machine")
-      ->check(zero_or_between(live::kMinPacketBytes, live::kMaxPacketBytes));
-  CLI::Option* listens =
-      command->add_option("--vmc-listen", live.vmc_listen, "Port to receive commands on")
-          ->check(whole_between(1, 65535));
-  command->add_flag("--vmc-send-only", live.vmc_send_only, "Receive no commands")
-      ->excludes(listens);
-  command
-      ->add_flag("--vmc-deaf", live.vmc_send_only)  // The former name.
-      ->excludes(listens)
-      ->group("");
+  add_vmc_options(*command, live);
   command
       ->add_option("--vrchat",
                    live.vrchat,

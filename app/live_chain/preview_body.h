@@ -100,7 +100,7 @@ class PreviewBody {
   std::vector<RigidTransform> world_from_joint_;
   std::optional<Weight> weight_;
   std::int64_t newest_ = -1;
-  double kept_share_ = 0.0;  // Of the wanted displacement, per frame without a point.
+  double kept_share_ = 0.0;  // Share of the displacement that a frame without a point keeps.
   glm::dvec2 wanted_xz_m_{0.0};
   glm::dvec2 shift_xz_m_{0.0};
 };
