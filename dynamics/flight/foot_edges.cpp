@@ -198,6 +198,29 @@ std::optional<FootEdge> edge_of(const Crossings& feet, bool is_last) {
   return edge;
 }
 
+/// Time around which an edge is searched, and the size of the feet.
+struct EdgeSearch {
+  double scale = 1.0;
+  double near_s = 0.0;
+  double tolerance_s = 0.0;
+};
+
+/// Returns the edge of both feet by the rule of one foot: leaves() or meets().
+template <class Rule>
+std::optional<FootEdge> edge_by(const Rule& rule,
+                                bool is_takeoff,
+                                const BodyTrack& track,
+                                const EdgeSearch& search) {
+  if (!has_soles(track)) return std::nullopt;
+  Crossings feet;
+  for (std::size_t side = 0; side < 2; ++side) {
+    feet[side] =
+        rule(track, track.soles[side], search.scale, search.near_s, search.tolerance_s);
+  }
+  drop_high_foot(search.scale, feet);
+  return edge_of(feet, is_takeoff);
+}
+
 }  // namespace
 
 double foot_scale(const BodyTrack& track) {
@@ -217,26 +240,14 @@ std::optional<FootEdge> foot_takeoff(const BodyTrack& track,
                                      double scale,
                                      double near_s,
                                      double tolerance_s) {
-  if (!has_soles(track)) return std::nullopt;
-  Crossings feet;
-  for (std::size_t side = 0; side < 2; ++side) {
-    feet[side] = leaves(track, track.soles[side], scale, near_s, tolerance_s);
-  }
-  drop_high_foot(scale, feet);
-  return edge_of(feet, true);
+  return edge_by(leaves, true, track, {scale, near_s, tolerance_s});
 }
 
 std::optional<FootEdge> foot_landing(const BodyTrack& track,
                                      double scale,
                                      double near_s,
                                      double tolerance_s) {
-  if (!has_soles(track)) return std::nullopt;
-  Crossings feet;
-  for (std::size_t side = 0; side < 2; ++side) {
-    feet[side] = meets(track, track.soles[side], scale, near_s, tolerance_s);
-  }
-  drop_high_foot(scale, feet);
-  return edge_of(feet, false);
+  return edge_by(meets, false, track, {scale, near_s, tolerance_s});
 }
 
 double lowest_sole_m(const BodyTrack& track, std::size_t frame) {
