@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/actions/action.h"
+#include "engine/blend/blend_postures.h"
+#include "engine/clips/motion_base.h"
+#include "engine/clips/rig.h"
+#include "engine/clips/sample_clip.h"
+#include "engine/feet/root_anchor.h"
+#include "engine/transition/inertial_offset.h"
+
+namespace marey::engine {
+
+/// Outcome of the last transition of the legs.
+struct TransitionReport {
+  bool is_synchronised = false;
+  bool is_inertial = false;
+  /// Incompatible supports within the next 1.2 s, of the plan that was used or rejected.
+  double incompatible_s = 0.0;
+};
+
+struct BlendPlayerOptions {
+  double half_life_s = 0.1;  ///< Of inertial offsets.
+  double max_incompatible_s = 0.05;
+  double entry_s = 0.5;  ///< Search of an entry in a clip that does not loop.
+  double anchor_fade_s = 0.1;
+  bool anchors_root = true;
+};
+
+/// Actions of one character, their synchronisation, and the posture that is their blend,
+/// on no body in particular. One step costs a few microseconds and allocates nothing.
+class BlendPlayer {
+ public:
+  BlendPlayer(std::shared_ptr<const MotionBase> base,
+              const Rig& rig,
+              const RootPlace& start,
+              const BlendPlayerOptions& options = {});
+
+  /// Adds an action; it begins in the next step at the earliest.
+  /// Precondition: there is room; its clip exists; the id is above all others.
+  void add(const Action& action);
+  [[nodiscard]] bool has_room() const { return count_ < kMaxActions; }
+  /// Begins to fade an action out, or forgets one that waits. False: it is over.
+  bool stop(ActionId id);
+  void stop_layer(std::optional<int> layer);
+  [[nodiscard]] const Action* find(ActionId id) const;
+  [[nodiscard]] std::span<const Action> actions() const {
+    return {actions_.data(), count_};
+  }
+
+  /// Moves on from time_s - step_s to time_s. False: nothing was ever played, and there
+  /// is no posture.
+  bool step(double time_s, double step_s);
+
+  [[nodiscard]] const BlendPosture& posture() const { return shown_; }
+  [[nodiscard]] const RootPlace& root() const { return root_; }
+  /// Moves the character, for example to its start.
+  void place(const RootPlace& root) { root_ = root; }
+  /// Turns the root about a point of the floor, in addition to the clips.
+  void turn_about(double x_m, double z_m, double turn_rad);
+  /// Share with which each part of the feet bears: not filtered.
+  [[nodiscard]] const PerFootPart& bears() const { return bears_; }
+  [[nodiscard]] const TransitionReport& report() const { return report_; }
+
+  /// The action with the greatest weight on the legs; nullptr: none.
+  [[nodiscard]] const Action* lead() const;
+  /// Weight of each action on each group in the last step, in the order of actions().
+  [[nodiscard]] const PerGroup& weights(std::size_t action) const {
+    return weights_[action];
+  }
+  [[nodiscard]] const MotionBase& base() const { return *base_; }
+  [[nodiscard]] const Rig& rig() const { return rig_; }
+
+ private:
+  struct Blend;
+  [[nodiscard]] Action* find_mutable(ActionId id);
+  void begin_waiting(double time_s, double step_s);
+  [[nodiscard]] bool may_begin(const Action& action, double time_s, double step_s) const;
+  void begin(Action& action, double time_s);
+  void retire_replaced(const Action& by, double time_s, bool at_once);
+  [[nodiscard]] bool synchronise(Action& action, double time_s, bool always);
+  void begin_inertial(Action& action, double time_s);
+  void limit_alive(double time_s);
+  void end_finished(double time_s);
+  [[nodiscard]] std::size_t alive(std::span<const Action*> out) const;
+  [[nodiscard]] bool evaluate(double time_s, double step_s, Blend& out);
+  void move_root(const Blend& blend, double time_s, double step_s);
+
+  std::shared_ptr<const MotionBase> base_;
+  Rig rig_;
+  BlendPlayerOptions options_;
+  std::array<Action, kMaxActions> actions_{};  ///< Ascending by layer, then by id.
+  std::size_t count_ = 0;
+  std::array<PerGroup, kMaxActions> weights_{};
+
+  bool is_known_ = false;   ///< There is a posture.
+  bool is_broken_ = false;  ///< The blend of this step does not continue the last one.
+  bool cuts_ = false;       ///< The break is to be seen.
+  BlendSides sides_;
+  InertialOffset offset_;
+  BlendPosture shown_;
+  PostureRates rates_;
+  FootPlaces feet_;
+  RootPlace root_;
+  RootPlace root_rate_;    ///< Of the last step, in its heading frame. [1/s]
+  RootPlace root_offset_;  ///< Decaying velocity that remains of a break.
+  RootPlace root_offset_rate_;
+  RootAnchor anchor_;
+  double anchored_s_ = 0.0;       ///< Of the present or last transition.
+  double anchor_strength_ = 0.0;  ///< 0 to 1, before smoothing.
+  double transition_end_s_ = -1.0;
+  PerFootPart bears_{};
+  TransitionReport report_;
+};
+
+}  // namespace marey::engine

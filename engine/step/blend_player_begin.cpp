@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "engine/step/blend_player.h"
+#include "engine/sync/plan_sync.h"
+#include "engine/transition/entry_cost.h"
+
+// The beginning of actions, and the transitions to them.
+
+namespace marey::engine {
+
+bool BlendPlayer::may_begin(const Action& action, double time_s, double step_s) const {
+  if (action.start == ActionStart::Kind::kNow) return true;
+  if (action.start == ActionStart::Kind::kAtTime) return time_s >= action.start_s;
+  const Action* other = find(action.after);
+  if (other == nullptr || other->phase == ActionPhase::kDone) return true;
+  if (!other->is_alive()) return false;
+  if (action.start == ActionStart::Kind::kAfter) {
+    return other->phase == ActionPhase::kFadingOut;
+  }
+  const MotionClip& clip = base_->clip(other->clip);
+  double before = other->warp.source_s(time_s - step_s);
+  double now = other->warp.source_s(time_s);
+  if (clip.loops) {
+    const double cycles = std::floor(before / clip.duration_s()) * clip.duration_s();
+    before -= cycles;
+    now -= cycles;
+    if (action.start_s < before) return now >= action.start_s + clip.duration_s();
+  }
+  return before <= action.start_s && action.start_s < now;
+}
+
+void BlendPlayer::begin_waiting(double time_s, double step_s) {
+  for (std::size_t i = 0; i < count_; ++i) {
+    Action& action = actions_[i];
+    if (action.phase == ActionPhase::kFadingOut && action.stopped_s < 0.0) {
+      action.stopped_s = time_s - step_s;
+    }
+  }
+  // In the order of ids, whatever their layers.
+  for (std::size_t n = 0; n < count_; ++n) {
+    Action* next = nullptr;
+    for (std::size_t i = 0; i < count_; ++i) {
+      Action& action = actions_[i];
+      if (action.phase != ActionPhase::kQueued) continue;
+      if (!may_begin(action, time_s, step_s)) continue;
+      if (next == nullptr || action.id < next->id) next = &action;
+    }
+    if (next == nullptr) return;
+    begin(*next, time_s - step_s);
+  }
+}
+
+void BlendPlayer::retire_replaced(const Action& by, double time_s, bool at_once) {
+  for (std::size_t i = 0; i < count_; ++i) {
+    Action& other = actions_[i];
+    if (&other == &by || !other.is_alive() || other.layer != by.layer) continue;
+    bool shares_group = false;
+    for (std::size_t g = 0; g < kGroupCount; ++g) {
+      shares_group = shares_group || (other.priority[g] > 0.0F && by.priority[g] > 0.0F);
+    }
+    if (!shares_group) continue;
+    if (at_once) {
+      other.phase = ActionPhase::kDone;
+    } else if (other.phase != ActionPhase::kFadingOut) {
+      other.phase = ActionPhase::kFadingOut;
+      other.stopped_s = time_s;
+      other.fade_out_s = by.fade_in_s;
+    }
+  }
+}
+
+void BlendPlayer::begin_inertial(Action& action, double time_s) {
+  unsigned bearing = 0;
+  for (std::size_t part = 0; part < bears_.size(); ++part) {
+    if (bears_[part] > 0.5) bearing |= 1U << part;
+  }
+  const MotionClip& clip = base_->clip(action.clip);
+  double entry = action.entry_s.value_or(0.0);
+  if (is_known_ && action.leg_priority() > 0.0F) {
+    entry = best_entry_s(rig_,
+                         shown_,
+                         rates_,
+                         bearing,
+                         clip,
+                         entry,
+                         action.entry_s ? 0.0 : options_.entry_s,
+                         clip.loops && !action.entry_s);
+  }
+  action.warp.start(time_s, entry, action.rate);
+  action.fade_in_s = 0.0;
+}
+
+bool BlendPlayer::synchronise(Action& action, double time_s, bool always) {
+  const Action* lead_action = nullptr;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Action& other = actions_[i];
+    if (&other == &action || !other.is_alive()) continue;
+    const float most = std::max(other.leg_priority(), action.leg_priority());
+    if (other.leg_priority() <= 0.05F * most) continue;
+    if (lead_action == nullptr || other.leg_priority() > lead_action->leg_priority()) {
+      lead_action = &other;
+    }
+  }
+  if (lead_action == nullptr) return false;
+  const auto side = [&](const Action& a, double now_s, double speed) {
+    const MotionClip& clip = base_->clip(a.clip);
+    return SyncSide{base_->phases(a.clip), clip.duration_s(), clip.loops, now_s, speed};
+  };
+  const SyncSide lead_side =
+      side(*lead_action, lead_action->warp.source_s(time_s), lead_action->rate);
+  SyncOptions sync;
+  sync.entry_s = action.entry_s ? 0.0 : options_.entry_s;
+  const SyncPlan plan =
+      plan_sync(lead_side, side(action, action.entry_s.value_or(0.0), action.rate), sync);
+  report_.incompatible_s = plan.incompatible_s;
+  const bool is_good =
+      !plan.only_inertial && plan.incompatible_s < options_.max_incompatible_s;
+  if (!is_good && !always) return false;
+  std::array<WarpKnot, kMaxSyncKnots> knots{};
+  for (std::size_t i = 0; i < plan.knot_count; ++i) {
+    knots[i] = {time_s + plan.knots[i].time_s, plan.knots[i].source_s};
+  }
+  const double first_rate =
+      plan.knot_count < 2
+          ? action.rate
+          : (knots[1].source_s - knots[0].source_s) / (knots[1].time_s - knots[0].time_s);
+  action.warp.start(
+      time_s, knots[0].source_s, std::clamp(first_rate, kMinWarpRate, kMaxWarpRate));
+  if (plan.knot_count > 1) {
+    (void)action.warp.replan(
+        time_s, std::span(knots).subspan(1, plan.knot_count - 1), action.rate, 0.0);
+  }
+  return true;
+}
+
+void BlendPlayer::begin(Action& action, double time_s) {
+  report_ = {};
+  const bool moves_legs = action.leg_priority() > 0.0F;
+  const bool meets_others = is_known_ && moves_legs;
+  bool at_once = action.transition == TransitionKind::kCut ||
+                 action.transition == TransitionKind::kInertial;
+  action.warp.start(time_s, action.entry_s.value_or(0.0), action.rate);
+  if (at_once) {
+    if (action.transition == TransitionKind::kInertial) begin_inertial(action, time_s);
+    action.fade_in_s = 0.0;
+  } else if (meets_others && action.transition != TransitionKind::kCrossfade) {
+    report_.is_synchronised =
+        base_->has_contacts(action.clip) &&
+        synchronise(action, time_s, action.transition == TransitionKind::kSynchronised);
+    if (!report_.is_synchronised && lead() != nullptr &&
+        action.transition == TransitionKind::kAuto) {
+      begin_inertial(action, time_s);
+      at_once = true;
+    }
+  }
+  if (!is_known_) action.fade_in_s = 0.0;
+  report_.is_inertial = at_once && action.transition != TransitionKind::kCut;
+  action.phase = action.fade_in_s > 0.0 ? ActionPhase::kFadingIn : ActionPhase::kHolding;
+  action.started_s = time_s;
+  if (action.replaces) retire_replaced(action, time_s, at_once);
+  if (at_once && is_known_) is_broken_ = true;
+  cuts_ = cuts_ || action.transition == TransitionKind::kCut;
+  if (moves_legs && is_known_) {
+    const double lasts_s = at_once ? 3.0 * options_.half_life_s : action.fade_in_s;
+    transition_end_s_ = std::max(transition_end_s_, time_s + lasts_s);
+  }
+}
+
+}  // namespace marey::engine
