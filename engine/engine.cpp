@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/engine.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "engine/actions/check_wish.h"
+
+#include "core/base/assert.h"
+#include "core/base/parallel.h"
+
+namespace marey::engine {
+namespace {
+
+std::array<bool, kGroupCount> groups_of(const retarget::BodyMap& map) {
+  std::array<bool, kGroupCount> out{};
+  out.fill(true);
+  const auto has = [&](HumanBone bone) { return map.joint_of[index(bone)].has_value(); };
+  out[static_cast<std::size_t>(EditGroup::kTrunk)] =
+      map.abdomen.count > 0 || map.torso.count > 0;
+  out[static_cast<std::size_t>(EditGroup::kHead)] =
+      has(HumanBone::kHead) || has(HumanBone::kNeck);
+  return out;
+}
+
+}  // namespace
+
+Engine::Engine(std::shared_ptr<const MotionBase> base, const EngineOptions& options)
+    : base_(std::move(base)), options_(options) {}
+
+Result<Engine> Engine::make(std::shared_ptr<const MotionBase> base,
+                            const EngineOptions& options) {
+  if (base == nullptr) {
+    return bad_input("engine", "there is no motion base", "read one with read_moves()");
+  }
+  if (!(options.step_hz >= 1.0 && options.step_hz <= 1000.0)) {
+    return bad_input(
+        "engine", "the rate is not in [1, 1000] Hz", "give 60 Hz, for example");
+  }
+  if (options.threads < 1) {
+    return bad_input("engine", "less than one thread", "give one thread or more");
+  }
+  return Engine(std::move(base), options);
+}
+
+Result<CharacterId> Engine::add(CharacterSpec spec) {
+  const std::string where = "character \"" + spec.character.name + "\"";
+  if (!std::isfinite(spec.start.x_m + spec.start.z_m + spec.start.heading_rad)) {
+    return bad_input(where, "its start is not finite", "give a place on the floor");
+  }
+  if (!std::isfinite(spec.importance) || spec.importance < 0.0) {
+    return bad_input(where, "its importance is negative or not finite", "give 0 or more");
+  }
+  auto player = CharacterPlayer::make(base_, std::move(spec));
+  if (!player) return player.error();
+  characters_.push_back(*std::move(player));
+  return CharacterId{static_cast<int>(characters_.size()) - 1};
+}
+
+Status Engine::check_character(CharacterId character) const {
+  const int i = static_cast<int>(character);
+  if (i >= 0 && static_cast<std::size_t>(i) < characters_.size()) return Done{};
+  return bad_input("character " + std::to_string(i),
+                   "the engine has no such character",
+                   "use an id that add() returned");
+}
+
+Result<ActionId> Engine::play(CharacterId character, const ActionWish& wish) {
+  if (const auto known = check_character(character); !known) return known.error();
+  CharacterPlayer& who = player(character);
+  auto action = check_wish(wish, *base_, who.blend().actions(), groups_of(who.map()));
+  if (!action) return action.error();
+  if (!who.blend().has_room()) {
+    return bad_input(
+        "action \"" + wish.clip + "\"",
+        "the character has " + std::to_string(kMaxActions) + " actions already",
+        "stop some of them first");
+  }
+  action->id = ActionId{next_action_++};
+  who.blend().add(*action);
+  return action->id;
+}
+
+Status Engine::stop(CharacterId character, ActionId action) {
+  if (const auto known = check_character(character); !known) return known.error();
+  if (player(character).blend().stop(action)) return Done{};
+  return bad_input("action " + std::to_string(number(action)),
+                   "it is over, or was never requested",
+                   "use an id that play() returned");
+}
+
+Status Engine::stop_all(CharacterId character, std::optional<int> layer) {
+  if (const auto known = check_character(character); !known) return known.error();
+  player(character).blend().stop_layer(layer);
+  return Done{};
+}
+
+void Engine::advance(int steps) {
+  MAREY_ASSERT(steps >= 0);
+  for (int i = 0; i < steps; ++i) {
+    ++steps_;
+    const double now_s = time_s();
+    if (options_.threads == 1) {
+      for (CharacterPlayer& character : characters_) character.step(now_s, step_s());
+    } else {
+      in_parallel(characters_.size(),
+                  static_cast<std::size_t>(options_.threads),
+                  [&](std::size_t c) { characters_[c].step(now_s, step_s()); });
+    }
+  }
+}
+
+double Engine::time_s() const {
+  return static_cast<double>(steps_) / options_.step_hz;
+}
+
+const Pose& Engine::pose(CharacterId character) const {
+  return player(character).pose();
+}
+
+CharacterPlayer& Engine::player(CharacterId character) {
+  return const_cast<CharacterPlayer&>(std::as_const(*this).player(character));
+}
+
+const CharacterPlayer& Engine::player(CharacterId character) const {
+  MAREY_ASSERT(check_character(character).has_value());
+  return characters_[static_cast<std::size_t>(character)];
+}
+
+ActionPhase Engine::phase(CharacterId character, ActionId action) const {
+  const Action* found = player(character).blend().find(action);
+  return found == nullptr ? ActionPhase::kDone : found->phase;
+}
+
+}  // namespace marey::engine

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "engine/actions/action.h"
+#include "engine/clips/motion_base.h"
+#include "engine/step/character_player.h"
+
+#include "core/base/result.h"
+
+namespace marey::engine {
+
+/// Position of a character in its engine.
+enum class CharacterId : int {};
+
+struct EngineOptions {
+  double step_hz = 60.0;
+  /// Threads of advance(); more than one are started in each call. The results do not
+  /// depend on it.
+  int threads = 1;
+};
+
+/// Plays motions on characters in fixed steps (Kulpa 2005, figures 2.2 and 7.1).
+///
+///     auto base = engine::MotionBase::make(*recordings::read_moves("moves.marey"));
+///     auto engine = engine::Engine::make(*base, {.step_hz = 60});
+///     CharacterId ann = *engine->add(spec);
+///     ActionId walk = *engine->play(ann, {.clip = "walk"});
+///     engine->advance(60);
+///     show(engine->pose(ann));
+///
+/// Same requests between the same steps, same postures, to the bit. Requests are checked
+/// when they are made; a step never fails. advance() allocates nothing with one thread.
+class Engine {
+ public:
+  /// Errors (bad input): no base; a rate that is not in [1, 1000] Hz; less than one
+  /// thread.
+  [[nodiscard]] static Result<Engine> make(std::shared_ptr<const MotionBase> base,
+                                           const EngineOptions& options = {});
+  Engine(Engine&&) noexcept = default;
+  Engine& operator=(Engine&&) noexcept = default;
+
+  /// Adds a character; it is in its rest pose until it plays something. Errors: those of
+  /// CharacterPlayer::make(); a start that is not finite.
+  [[nodiscard]] Result<CharacterId> add(CharacterSpec spec);
+
+  /// Requests an action. Errors (bad input, naming the value): no such character or clip
+  /// (with the nearest name); a priority, weight, fade, rate or time that is not finite
+  /// or negative; no priority above 0; a rate outside of [0.25, 4]; a group that the body
+  /// does not have; an entry outside of the clip; an action to wait for that does not
+  /// exist, is over, or has no end; an event that its clip does not have; more than
+  /// kMaxActions actions.
+  [[nodiscard]] Result<ActionId> play(CharacterId character, const ActionWish& wish);
+  /// Fades an action out, or takes a waiting one back. Error: it is over or unknown.
+  [[nodiscard]] Status stop(CharacterId character, ActionId action);
+  /// Fades out all actions of a layer; nullopt: of all layers.
+  [[nodiscard]] Status stop_all(CharacterId character, std::optional<int> layer = {});
+
+  /// Moves all characters on by this many steps. Precondition: steps >= 0.
+  void advance(int steps = 1);
+
+  [[nodiscard]] double time_s() const;
+  [[nodiscard]] double step_s() const { return 1.0 / options_.step_hz; }
+  [[nodiscard]] std::size_t size() const { return characters_.size(); }
+  /// Precondition (also of the functions below): the character exists.
+  [[nodiscard]] const Pose& pose(CharacterId character) const;
+  [[nodiscard]] CharacterPlayer& player(CharacterId character);
+  [[nodiscard]] const CharacterPlayer& player(CharacterId character) const;
+  /// State of an action; kDone for one that is over or was never requested.
+  [[nodiscard]] ActionPhase phase(CharacterId character, ActionId action) const;
+  [[nodiscard]] const MotionBase& base() const { return *base_; }
+
+ private:
+  Engine(std::shared_ptr<const MotionBase> base, const EngineOptions& options);
+  [[nodiscard]] Status check_character(CharacterId character) const;
+
+  std::shared_ptr<const MotionBase> base_;
+  EngineOptions options_;
+  std::vector<CharacterPlayer> characters_;
+  std::int64_t steps_ = 0;
+  std::int64_t next_action_ = 1;
+};
+
+}  // namespace marey::engine

@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/step/character_player.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/smooth_step.h"
+#include "retarget/body/normalized_skeleton.h"
+#include "retarget/body/rotation_from_t_pose.h"
+
+namespace marey::engine {
+namespace {
+
+constexpr std::array<const char*, 2> kSupportIds{"support left", "support right"};
+constexpr std::array<HumanBone, 2> kFootBones{HumanBone::kLeftFoot,
+                                              HumanBone::kRightFoot};
+constexpr double kBearsAbove = 0.6;
+constexpr double kBearsUntil = 0.4;
+constexpr double kLevelFade_s = 0.2;
+
+Constraint support_of(std::size_t side) {
+  Constraint support;
+  support.id = kSupportIds[side];
+  support.point.segment = name(kFootBones[side]);
+  Support goal;
+  goal.footprint_in_world = glm::dvec3(0.0);
+  goal.world_from_t_pose = glm::dquat(1.0, 0.0, 0.0, 0.0);
+  support.goal = goal;
+  return support;
+}
+
+// Time from `source_s` in a clip until a part of a foot begins to bear; nullopt: it bears
+// already, or does not begin within `within_s` of the clip.
+std::optional<double> until_contact_s(const MotionClip& clip,
+                                      std::size_t side,
+                                      double source_s,
+                                      double within_s) {
+  const double duration = clip.duration_s();
+  double now = source_s;
+  if (clip.loops) now -= std::floor(now / duration) * duration;
+  std::optional<double> soonest;
+  for (std::size_t part = 2 * side; part < 2 * side + 2; ++part) {
+    for (const ClipSpan& span : clip.contacts[part]) {
+      for (int cycle = 0; cycle < (clip.loops ? 2 : 1); ++cycle) {
+        const double start = static_cast<double>(span.start_s) + cycle * duration;
+        const double end = static_cast<double>(span.end_s) + cycle * duration;
+        if (now >= start && now < end) return std::nullopt;
+        const double until = start - now;
+        // A contact that starts with the clip continues the end of the cycle.
+        if (until < 0.0 || until > within_s) continue;
+        if (!soonest || until < *soonest) soonest = until;
+      }
+    }
+  }
+  return soonest;
+}
+
+}  // namespace
+
+Result<CharacterPlayer> CharacterPlayer::make(std::shared_ptr<const MotionBase> base,
+                                              CharacterSpec spec) {
+  if (!spec.map.limbs[0] || !spec.map.limbs[1]) {
+    return bad_input("character \"" + spec.character.name + "\"",
+                     "the body has no complete arms",
+                     "use a body with shoulders, elbows and wrists");
+  }
+  ConstraintSet constraints;
+  constraints.constraints = {support_of(0), support_of(1)};
+  for (const Constraint& constraint : spec.constraints.constraints) {
+    for (const char* id : kSupportIds) {
+      if (constraint.id != id) continue;
+      return bad_input("character \"" + spec.character.name + "\"",
+                       "the constraint \"" + constraint.id + "\" has an id of the engine",
+                       "give it another id");
+    }
+    constraints.constraints.push_back(constraint);
+  }
+  retarget::AdaptOptions options = spec.adapt;
+  if (spec.level == DetailLevel::kKinetic) {
+    options.balance = retarget::BalanceMode::kHorizontal;
+  }
+  auto adapter = retarget::Adapter::make(spec.character, constraints, options);
+  if (!adapter) return adapter.error();
+  return CharacterPlayer(std::move(base), std::move(spec), *std::move(adapter));
+}
+
+CharacterPlayer::CharacterPlayer(std::shared_ptr<const MotionBase> base,
+                                 CharacterSpec spec,
+                                 retarget::Adapter adapter)
+    : character_(std::make_shared<const Character>(std::move(spec.character))),
+      map_(std::make_shared<const retarget::BodyMap>(std::move(spec.map))),
+      blend_(
+          std::move(base), make_rig(character_->skeleton, *map_), spec.start, spec.blend),
+      foot_options_(spec.feet),
+      level_(spec.level),
+      activation_(spec.level == DetailLevel::kBlended ? 0.0 : 1.0),
+      adapter_(std::make_unique<retarget::Adapter>(std::move(adapter))),
+      world_from_joint_(character_->skeleton.joints.size()),
+      reference_(rest_pose(character_->skeleton)),
+      pose_(reference_) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    supports_[side] = adapter_->constraint(kSupportIds[side]);
+  }
+}
+
+std::span<const RigidTransform> CharacterPlayer::world_from_joint() const {
+  if (is_adapted_) return adapter_->world_from_joint();
+  return world_from_joint_;
+}
+
+void CharacterPlayer::add_landing(std::size_t side,
+                                  double time_s,
+                                  FootReference& out) const {
+  const Action* lead = blend_.lead();
+  if (lead == nullptr) return;
+  const MotionClip& clip = blend_.base().clip(lead->clip);
+  const double source_s = lead->warp.source_s(time_s);
+  const double rate = lead->warp.rate(time_s);
+  const auto until = until_contact_s(clip, side, source_s, foot_options_.land_s * rate);
+  if (!until || *until / rate < 1e-6) return;
+  // The ankle's height and velocity at the landing, in the clip on this body.
+  constexpr double kBack_s = 0.004;
+  const Rig& rig = blend_.rig();
+  const auto ankle = [&](double at_s) {
+    BlendPosture posture;
+    sample_clip(clip, at_s, posture);
+    const glm::dvec3 p = rig.leg_length_m * foot_places(rig, posture).ankle[side];
+    const RootPlace moved_by = relative(path_at(clip, source_s), path_at(clip, at_s));
+    const RootPlace root = moved({0.0, 0.0, blend_.root().heading_rad},
+                                 {moved_by.x_m * rig.leg_length_m,
+                                  moved_by.z_m * rig.leg_length_m,
+                                  moved_by.heading_rad});
+    const double c = std::cos(root.heading_rad);
+    const double s = std::sin(root.heading_rad);
+    return glm::dvec3(root.x_m + c * p.x + s * p.z,
+                      p.y + rig.leg_length_m * static_cast<double>(posture.height_legs),
+                      root.z_m - s * p.x + c * p.z);
+  };
+  FootReference::Landing landing;
+  landing.in_s = *until / rate;
+  landing.ankle_in_world = ankle(source_s + *until);
+  landing.velocity_m_s =
+      (landing.ankle_in_world - ankle(source_s + *until - kBack_s)) * (rate / kBack_s);
+  out.landing = landing;
+}
+
+FootReference CharacterPlayer::foot_reference(std::size_t side, double time_s) const {
+  const JointIndex joint = *map_->joint_of[index(kFootBones[side])];
+  FootReference out;
+  out.ankle_in_world = world_from_joint_[index(joint)].translation;
+  out.world_from_t_pose = retarget::rotation_from_t_pose(*map_, world_from_joint_, joint);
+  out.heel_bears = bore_[side][0];
+  out.ball_bears = bore_[side][1];
+  if (!out.heel_bears && !out.ball_bears) add_landing(side, time_s, out);
+  return out;
+}
+
+void CharacterPlayer::hold_feet(double time_s, double step_s) {
+  const double share = smooth_step(activation_);
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (std::size_t part = 0; part < 2; ++part) {
+      bool& bears = bore_[side][part];
+      bears = blend_.bears()[2 * side + part] > (bears ? kBearsUntil : kBearsAbove);
+    }
+    const FootReference reference = foot_reference(side, time_s);
+    const FootHold::Place place = feet_[side].step(
+        reference, map_->feet[side], blend_.rig().leg_length_m, step_s, foot_options_);
+    report_.stands[side] = feet_[side].holds();
+    supports_[side]->set_target(
+        glm::mix(reference.ankle_in_world, place.ankle_in_world, share));
+    supports_[side]->set_orientation(glm::normalize(
+        glm::slerp(reference.world_from_t_pose, place.world_from_t_pose, share)));
+  }
+}
+
+void CharacterPlayer::step(double time_s, double step_s) {
+  if (!blend_.step(time_s, step_s)) return;
+  report_.transition = blend_.report();
+  to_normalized(blend_.posture(),
+                blend_.base().layout(),
+                blend_.root(),
+                map_->leg_length_m,
+                normalized_);
+  retarget::expand(
+      normalized_, character_->skeleton, *map_, world_from_joint_, reference_);
+  const double change = step_s / kLevelFade_s;
+  activation_ = std::clamp(
+      activation_ + (level_ == DetailLevel::kBlended ? -change : change), 0.0, 1.0);
+  is_adapted_ = activation_ > 0.0;
+  if (!is_adapted_) {
+    pose_ = reference_;
+    feet_[0].reset();
+    feet_[1].reset();
+    report_.stands = {};
+    return;
+  }
+  hold_feet(time_s, step_s);
+  report_.adapt = adapter_->adapt(reference_, time_s, pose_);
+}
+
+}  // namespace marey::engine

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/feet/foot_hold.h"
+#include "engine/step/blend_player.h"
+#include <glm/vec3.hpp>
+
+#include "core/base/result.h"
+#include "core/character.h"
+#include "core/constraint.h"
+#include "core/pose.h"
+#include "core/transform.h"
+#include "retarget/adapt/adapter.h"
+#include "retarget/body/body_map.h"
+
+namespace marey::engine {
+
+/// Work that is done for a character in each step.
+enum class DetailLevel : std::uint8_t {
+  kBlended,    ///< Sampled, blended, on its body.
+  kKinematic,  ///< And feet that stand, and constraints.
+  kKinetic,    ///< And balance.
+};
+
+/// A character to add to an engine.
+struct CharacterSpec {
+  Character character;
+  retarget::BodyMap map;  ///< Of the character's skeleton.
+  RootPlace start;
+  double importance = 1.0;
+  DetailLevel level = DetailLevel::kKinematic;
+  /// Constraints that may act on it. Activations begin as they state; the caller starts
+  /// and moves them through constraint(). Supports of the feet are added.
+  ConstraintSet constraints;
+  BlendPlayerOptions blend;
+  FootHoldOptions feet;
+  retarget::AdaptOptions adapt;
+};
+
+/// State of a character after a step.
+struct CharacterReport {
+  TransitionReport transition;
+  retarget::AdaptReport adapt;   ///< Of kKinematic and above.
+  std::array<bool, 2> stands{};  ///< Left, right: the foot is held.
+};
+
+/// Plays actions on one body: blend, expansion, feet on the floor Y = 0, adaptation.
+class CharacterPlayer {
+ public:
+  /// Errors (bad input): those of Adapter::make(); a body without arms; a constraint with
+  /// an id of the supports ("support left", "support right").
+  [[nodiscard]] static Result<CharacterPlayer> make(
+      std::shared_ptr<const MotionBase> base, CharacterSpec spec);
+  CharacterPlayer(CharacterPlayer&&) noexcept = default;
+  CharacterPlayer& operator=(CharacterPlayer&&) noexcept = default;
+
+  /// Computes the posture at time_s, step_s after the last one.
+  void step(double time_s, double step_s);
+
+  [[nodiscard]] BlendPlayer& blend() { return blend_; }
+  [[nodiscard]] const BlendPlayer& blend() const { return blend_; }
+  [[nodiscard]] const Character& character() const { return *character_; }
+  [[nodiscard]] const retarget::BodyMap& map() const { return *map_; }
+  [[nodiscard]] const Pose& pose() const { return pose_; }
+  /// The posture before feet and constraints.
+  [[nodiscard]] const Pose& reference() const { return reference_; }
+  [[nodiscard]] std::span<const RigidTransform> world_from_joint() const;
+  [[nodiscard]] const CharacterReport& report() const { return report_; }
+  /// Returns the handle of a constraint of the spec; nullopt: the id is unknown.
+  [[nodiscard]] std::optional<retarget::Adapter::Handle> constraint(std::string_view id) {
+    return adapter_->constraint(id);
+  }
+  /// Changes the level: over 0.2 s from and to kBlended. kKinetic needs a spec of
+  /// kKinetic.
+  void set_level(DetailLevel level) { level_ = level; }
+  [[nodiscard]] DetailLevel level() const { return level_; }
+
+ private:
+  CharacterPlayer(std::shared_ptr<const MotionBase> base,
+                  CharacterSpec spec,
+                  retarget::Adapter adapter);
+  [[nodiscard]] FootReference foot_reference(std::size_t side, double time_s) const;
+  void add_landing(std::size_t side, double time_s, FootReference& out) const;
+  void hold_feet(double time_s, double step_s);
+
+  std::shared_ptr<const Character> character_;
+  std::shared_ptr<const retarget::BodyMap> map_;
+  BlendPlayer blend_;
+  FootHoldOptions foot_options_;
+  DetailLevel level_ = DetailLevel::kKinematic;
+  double activation_ = 1.0;  ///< Of supports, before smoothing.
+  std::unique_ptr<retarget::Adapter> adapter_;
+  std::array<std::optional<retarget::Adapter::Handle>, 2> supports_{};
+  std::array<FootHold, 2> feet_{};
+  std::array<std::array<bool, 2>, 2> bore_{};  ///< [foot][heel, ball], with hysteresis.
+  retarget::NormalizedPose normalized_;
+  std::vector<RigidTransform> world_from_joint_;
+  Pose reference_;
+  Pose pose_;
+  bool is_adapted_ = false;  ///< The last pose is the adapter's.
+  CharacterReport report_;
+};
+
+}  // namespace marey::engine
