@@ -72,8 +72,11 @@ struct ActionWish {
   std::optional<bool> loops{};
   ActionStart start;
   TransitionKind transition = TransitionKind::kAuto;
-  /// Time in the clip at which it begins. nullopt: its start, or the best one of a loop.
+  /// Time in the clip at which it begins. nullopt: its start, or anywhere in a loop.
   std::optional<double> entry_s{};
+  /// Synchronised and inertial transitions may begin this much earlier or later in the
+  /// clip. 0: exactly there.
+  double entry_search_s = 0.5;
   /// Ends the actions of its layer that move a group that it moves.
   bool replaces = true;
 };
@@ -98,6 +101,7 @@ struct Action {
   ActionId after{};
   TransitionKind transition = TransitionKind::kAuto;
   std::optional<double> entry_s{};
+  double entry_search_s = 0.0;
 
   ActionPhase phase = ActionPhase::kQueued;
   double started_s = 0.0;

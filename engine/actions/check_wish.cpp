@@ -53,6 +53,11 @@ std::optional<Error> check_numbers(const ActionWish& wish,
                         "give fades of 0 s or more")) {
     return error;
   }
+  if (auto error = refuse_unless(is_duration(wish.entry_search_s),
+                                 "the search of an entry is negative or not finite",
+                                 "give 0 s or more")) {
+    return error;
+  }
   return refuse_unless(
       std::isfinite(wish.rate) && wish.rate >= kMinWarpRate && wish.rate <= kMaxWarpRate,
       "the rate is not in [0.25, 4]",
@@ -137,6 +142,7 @@ Result<Action> check_wish(const ActionWish& wish,
   }
   const double duration = base.clip(*clip).duration_s();
   action.entry_s = wish.entry_s;
+  action.entry_search_s = wish.entry_search_s;
   if (wish.entry_s && !(*wish.entry_s >= 0.0 && *wish.entry_s <= duration)) {
     return wish_error(
         wish, "its entry is outside of the clip", "give a time within the clip");

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/clips/rig.h"
 
+#include <cmath>
+
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/base/assert.h"
@@ -26,7 +28,7 @@ glm::dquat rotation_of(const BlendPosture& posture, std::size_t i) {
 }
 
 glm::dvec3 limb_end(const BlendPosture& posture, std::size_t limb, double length) {
-  return length * static_cast<double>(posture.extension[limb]) *
+  return length * std::cos(static_cast<double>(posture.extension[limb])) *
          (rotation_of(posture, kLimbRotation + limb) * glm::dvec3(0, 0, 1));
 }
 

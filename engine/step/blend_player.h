@@ -30,7 +30,6 @@ struct TransitionReport {
 struct BlendPlayerOptions {
   double half_life_s = 0.1;  ///< Of inertial offsets.
   double max_incompatible_s = 0.05;
-  double entry_s = 0.5;  ///< Search of an entry in a clip that does not loop.
   double anchor_fade_s = 0.1;
   bool anchors_root = true;
 };

@@ -12,6 +12,28 @@
 // The beginning of actions, and the transitions to them.
 
 namespace marey::engine {
+namespace {
+
+// A clip that does not loop is not entered so late that it ends within this time.
+constexpr double kLeast_s = 1.2;
+
+// Times of a clip at which an action may enter: the middle and half of the width.
+struct EntryRange {
+  double middle_s = 0.0;
+  double half_s = 0.0;
+};
+
+EntryRange entry_range(const Action& action, const MotionClip& clip) {
+  const double asked_s = action.entry_s.value_or(0.0);
+  if (clip.loops) return {asked_s, action.entry_search_s};
+  const double first_s = std::max(0.0, asked_s - action.entry_search_s);
+  const double last_s = std::min(asked_s + action.entry_search_s,
+                                 clip.duration_s() - kLeast_s * action.rate);
+  const double end_s = std::max(last_s, asked_s);
+  return {0.5 * (first_s + end_s), 0.5 * (end_s - first_s)};
+}
+
+}  // namespace
 
 bool BlendPlayer::may_begin(const Action& action, double time_s, double step_s) const {
   if (action.start == ActionStart::Kind::kNow) return true;
@@ -80,6 +102,7 @@ void BlendPlayer::begin_inertial(Action& action, double time_s) {
     if (bears_[part] > 0.5) bearing |= 1U << part;
   }
   const MotionClip& clip = base_->clip(action.clip);
+  const EntryRange range = entry_range(action, clip);
   double entry = action.entry_s.value_or(0.0);
   if (is_known_ && action.leg_priority() > 0.0F) {
     entry = best_entry_s(rig_,
@@ -87,8 +110,8 @@ void BlendPlayer::begin_inertial(Action& action, double time_s) {
                          rates_,
                          bearing,
                          clip,
-                         entry,
-                         action.entry_s ? 0.0 : options_.entry_s,
+                         range.middle_s,
+                         range.half_s,
                          clip.loops && !action.entry_s);
   }
   action.warp.start(time_s, entry, action.rate);
@@ -114,9 +137,12 @@ bool BlendPlayer::synchronise(Action& action, double time_s, bool always) {
   const SyncSide lead_side =
       side(*lead_action, lead_action->warp.source_s(time_s), lead_action->rate);
   SyncOptions sync;
-  sync.entry_s = action.entry_s ? 0.0 : options_.entry_s;
+  const EntryRange range = entry_range(action, base_->clip(action.clip));
+  sync.entry_s = range.half_s;
+  // Replaced actions are heard until they have faded out.
+  if (action.replaces) sync.horizon_s = std::max(action.fade_in_s, 0.2);
   const SyncPlan plan =
-      plan_sync(lead_side, side(action, action.entry_s.value_or(0.0), action.rate), sync);
+      plan_sync(lead_side, side(action, range.middle_s, action.rate), sync);
   report_.incompatible_s = plan.incompatible_s;
   const bool is_good =
       !plan.only_inertial && plan.incompatible_s < options_.max_incompatible_s;
