@@ -15,7 +15,9 @@
 // only the times of both clips and their weights. Slide: horizontal speed of ankles and
 // toe joints in the 0.3 s after the switch, while the clip that weighs more bears there
 // (slower than 50 cm/s, lower than 5 cm above the resting height, in the clip itself).
-// Its 95th percentile is over switches. Acceleration: the largest of a joint or tip
+// Its 95th percentile is over switches. A foot that rolls moves its ankle, so the slide
+// of the clips themselves in the same steps stands next to it; "feet" counts only the
+// slower bearing point of each foot. Acceleration: the largest of a joint or tip
 // within 0.5 s of the switch, over that of both clips. Jerk: the mean over joints and
 // tips within 0.5 s of the switch, over that of the clip that has more; the column after
 // it is that of the 0.3 s after the switch. Both clips and results are compared at the
@@ -70,6 +72,10 @@ std::vector<TableCell> row_of(std::string method, const MethodFigures& figures) 
   return {std::move(method),
           figures.slide_mean_cm_s,
           figures.slide_p95_cm_s,
+          figures.own_slide_mean_cm_s,
+          figures.foot_slide_mean_cm_s,
+          figures.foot_slide_p95_cm_s,
+          figures.own_foot_slide_mean_cm_s,
           figures.acceleration_median,
           figures.acceleration_worst,
           figures.jerk_mean,
@@ -113,6 +119,10 @@ ResultTable transition_table(const std::string& id,
                     {{"method"},
                      {"slide cm/s, mean", 1},
                      {"p95", 1},
+                     {"clips' own", 1},
+                     {"feet cm/s, mean", 1},
+                     {"p95", 1},
+                     {"clips' own", 1},
                      {"acceleration, median", 2},
                      {"worst", 2},
                      {"jerk", 2},
@@ -130,12 +140,19 @@ ResultTable transition_table(const std::string& id,
   return table;
 }
 
+double mean_slide(const std::vector<double>& slides_cm_s) {
+  double sum_cm_s = 0.0;
+  for (const double slide_cm_s : slides_cm_s) sum_cm_s += slide_cm_s;
+  return slides_cm_s.empty() ? 0.0 : sum_cm_s / static_cast<double>(slides_cm_s.size());
+}
+
 ResultTable clip_table(const TransitionClips& clips) {
   ResultTable table{"clips",
                     "The clips themselves",
                     {{"clip"},
                      {"slide cm/s, mean", 1},
                      {"p95 of steps", 1},
+                     {"feet, mean", 1},
                      {"greatest acceleration m/s^2", 0},
                      {"at 60 Hz", 0},
                      {"mean jerk m/s^3", 0},
@@ -147,14 +164,13 @@ ResultTable clip_table(const TransitionClips& clips) {
                                      &clips.bandai_walk,
                                      &clips.bandai_kick,
                                      &clips.bandai_dance}) {
-    const auto slides_cm_s = own_slides_cm_s(*clip);
-    double sum_cm_s = 0.0;
-    for (const double slide_cm_s : slides_cm_s) sum_cm_s += slide_cm_s;
+    const SlideSamples slides = own_slides(*clip);
     const SourceFigures full = source_figures(*clip, kTransitionRate_hz);
     const SourceFigures half = source_figures(*clip, 0.5 * kTransitionRate_hz);
     table.rows.push_back({clip->name,
-                          sum_cm_s / static_cast<double>(slides_cm_s.size()),
-                          quantile(slides_cm_s, 0.95),
+                          mean_slide(slides.points),
+                          quantile(slides.points, 0.95),
+                          mean_slide(slides.feet),
                           full.peak_acceleration_m_s2,
                           half.peak_acceleration_m_s2,
                           full.mean_jerk_m_s3,

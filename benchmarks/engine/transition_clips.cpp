@@ -57,6 +57,16 @@ BearingLabels label_bearing(const Motion& motion, const retarget::BodyMap& map) 
   return out;
 }
 
+double own_slide_cm_s(const TransitionClip& clip, std::size_t point, double time_s) {
+  const auto& path = clip.foot_paths[point];
+  if (path.size() < 2) return 0.0;
+  const auto last = static_cast<long>(path.size()) - 1;
+  const auto t = static_cast<std::size_t>(
+      std::clamp(std::lround(time_s * clip.motion.rate.hz), 1L, last));
+  const glm::dvec3 step_m = path[t] - path[t - 1];
+  return 100.0 * std::hypot(step_m.x, step_m.z) * clip.motion.rate.hz;
+}
+
 bool bears_at(const TransitionClip& clip, std::size_t point, double time_s) {
   const auto& marks = clip.bearing[point];
   if (marks.empty()) return false;
@@ -74,7 +84,9 @@ Result<TransitionClip> make_transition_clip(std::string name,
                      resample(motion, {kTransitionRate_hz}),
                      *std::move(map),
                      {},
+                     {},
                      is_cyclic};
+  out.foot_paths = retarget::contact_paths(out.motion, out.map);
   out.bearing = label_bearing(out.motion, out.map);
   return out;
 }

@@ -30,6 +30,8 @@ struct TransitionClip {
   std::string name;
   Motion motion;  ///< At kTransitionRate_hz.
   retarget::BodyMap map;
+  /// Places of the foot points in the world, per point and frame; empty: no toes.
+  std::array<std::vector<glm::dvec3>, kFootPoints> foot_paths;
   BearingLabels bearing;   ///< label_bearing() of `motion`.
   bool is_cyclic = false;  ///< Repeats a gait: it may be entered in any cycle.
 
@@ -48,6 +50,12 @@ struct TransitionClip {
 /// Returns the label of a point at a time of the clip: that of the nearest frame, the
 /// first or last one beyond the ends.
 [[nodiscard]] bool bears_at(const TransitionClip& clip, std::size_t point, double time_s);
+
+/// Returns the horizontal speed of a point in the step that ends at the nearest frame; 0
+/// for missing toes. [cm/s]
+[[nodiscard]] double own_slide_cm_s(const TransitionClip& clip,
+                                    std::size_t point,
+                                    double time_s);
 
 /// Makes a clip of a motion at any rate. Errors: those of map_body().
 [[nodiscard]] Result<TransitionClip> make_transition_clip(std::string name,

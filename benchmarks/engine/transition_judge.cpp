@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -86,31 +88,50 @@ double mean_of(const std::vector<double>& values) {
   return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
 }
 
-bool judged_to_bear(const SwitchCase& played,
-                    const TransitionFrame& frame,
-                    std::size_t point) {
-  const std::size_t heavier = frame.weight[1] >= frame.weight[0] ? 1 : 0;
-  const TransitionClip& clip = heavier == 1 ? *played.to : *played.from;
-  return bears_at(clip, point, frame.source_s[heavier]);
+/// Sides of the foot points alternate: left, right ankle, left, right toe joint.
+constexpr std::size_t kSides = 2;
+
+// Adds the slides of one step. `speed_cm_s` and `bears` are called with a foot point.
+template <class Speed, class Bears>
+void add_slides(const Speed& speed_cm_s, const Bears& bears, SlideSamples& out) {
+  for (std::size_t side = 0; side < kSides; ++side) {
+    std::optional<double> slower_cm_s;
+    for (std::size_t point = side; point < kFootPoints; point += kSides) {
+      if (!bears(point)) continue;
+      const double slide_cm_s = speed_cm_s(point);
+      out.points.push_back(slide_cm_s);
+      slower_cm_s = std::min(slower_cm_s.value_or(slide_cm_s), slide_cm_s);
+    }
+    if (slower_cm_s) out.feet.push_back(*slower_cm_s);
+  }
 }
 
-std::vector<double> slides_after(const SwitchCase& played,
-                                 const TransitionResult& result,
-                                 const retarget::BodyMap& map,
-                                 JudgedFrames frames) {
+void measure_slides(const SwitchCase& played,
+                    const TransitionResult& result,
+                    const retarget::BodyMap& map,
+                    JudgedFrames frames,
+                    TransitionFigures& out) {
   const auto paths = retarget::contact_paths(result.motion, map);
-  std::vector<double> slides_cm_s;
-  for (std::size_t point = 0; point < kFootPoints; ++point) {
-    const auto& path = paths[point];
-    if (path.empty()) continue;
-    for (int frame = frames.first; frame < frames.end; ++frame) {
-      const auto t = static_cast<std::size_t>(frame);
-      if (!judged_to_bear(played, result.frames[t], point)) continue;
-      slides_cm_s.push_back(
-          horizontal_speed_cm_s(path[t - 1], path[t], result.motion.rate.hz));
-    }
+  for (int frame = frames.first; frame < frames.end; ++frame) {
+    const auto t = static_cast<std::size_t>(frame);
+    const TransitionFrame& shown = result.frames[t];
+    const std::size_t heavier = shown.weight[1] >= shown.weight[0] ? 1 : 0;
+    const TransitionClip& clip = heavier == 1 ? *played.to : *played.from;
+    const double time_s = shown.source_s[heavier];
+    const auto bears = [&](std::size_t point) {
+      return !paths[point].empty() && bears_at(clip, point, time_s);
+    };
+    add_slides(
+        [&](std::size_t point) {
+          return horizontal_speed_cm_s(
+              paths[point][t - 1], paths[point][t], result.motion.rate.hz);
+        },
+        bears,
+        out.slides);
+    add_slides([&](std::size_t point) { return own_slide_cm_s(clip, point, time_s); },
+               bears,
+               out.own);
   }
-  return slides_cm_s;
 }
 
 double longest_leg(const Motion& motion,
@@ -156,6 +177,33 @@ SourceFigures larger_of(const SourceFigures& a, const SourceFigures& b) {
           std::max(a.mean_jerk_m_s3, b.mean_jerk_m_s3)};
 }
 
+void append(const std::vector<double>& from, std::vector<double>& to) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+// Switches in which no foot bears have no slide.
+void summarize_slides(const std::vector<TransitionFigures>& all, MethodFigures& out) {
+  SlideSamples slides;
+  SlideSamples own;
+  SlideSamples means;
+  for (const TransitionFigures& one : all) {
+    append(one.slides.points, slides.points);
+    append(one.slides.feet, slides.feet);
+    append(one.own.points, own.points);
+    append(one.own.feet, own.feet);
+    if (one.slides.points.empty()) continue;
+    means.points.push_back(one.slide_cm_s);
+    means.feet.push_back(one.foot_slide_cm_s);
+  }
+  out.slide_mean_cm_s = mean_of(slides.points);
+  out.own_slide_mean_cm_s = mean_of(own.points);
+  out.foot_slide_mean_cm_s = mean_of(slides.feet);
+  out.own_foot_slide_mean_cm_s = mean_of(own.feet);
+  if (means.points.empty()) return;
+  out.slide_p95_cm_s = quantile(means.points, 0.95);
+  out.foot_slide_p95_cm_s = quantile(means.feet, 0.95);
+}
+
 }  // namespace
 
 SourceFigures source_figures(const TransitionClip& clip, double hz) {
@@ -172,18 +220,15 @@ SourceFigures source_figures(const SwitchCase& played, double hz) {
   return larger_of(source_figures(*played.from, hz), source_figures(*played.to, hz));
 }
 
-std::vector<double> own_slides_cm_s(const TransitionClip& clip) {
-  const auto paths = retarget::contact_paths(clip.motion, clip.map);
-  std::vector<double> slides_cm_s;
-  for (std::size_t point = 0; point < kFootPoints; ++point) {
-    const auto& path = paths[point];
-    for (std::size_t t = 1; t < path.size(); ++t) {
-      if (clip.bearing[point][t] == 0) continue;
-      slides_cm_s.push_back(
-          horizontal_speed_cm_s(path[t - 1], path[t], clip.motion.rate.hz));
-    }
+SlideSamples own_slides(const TransitionClip& clip) {
+  SlideSamples out;
+  for (int frame = 1; frame < clip.frame_count(); ++frame) {
+    const double time_s = frame / clip.motion.rate.hz;
+    add_slides([&](std::size_t point) { return own_slide_cm_s(clip, point, time_s); },
+               [&](std::size_t point) { return bears_at(clip, point, time_s); },
+               out);
   }
-  return slides_cm_s;
+  return out;
 }
 
 TransitionFigures judge(const SwitchCase& played,
@@ -204,8 +249,9 @@ TransitionFigures judge(const SwitchCase& played,
   const JudgedFrames around{at - peak_steps, at + peak_steps + 1};
   const JudgedPlaces places = judged_places(result.motion);
   TransitionFigures out;
-  out.slides_cm_s = slides_after(played, result, *map, after);
-  out.slide_cm_s = mean_of(out.slides_cm_s);
+  measure_slides(played, result, *map, after, out);
+  out.slide_cm_s = mean_of(out.slides.points);
+  out.foot_slide_cm_s = mean_of(out.slides.feet);
   out.acceleration =
       largest_acceleration(places, around, hz) / sources.peak_acceleration_m_s2;
   out.jerk = mean_jerk_of(places, around, hz) / sources.mean_jerk_m_s3;
@@ -218,14 +264,10 @@ TransitionFigures judge(const SwitchCase& played,
 
 MethodFigures summarize(const std::vector<TransitionFigures>& all) {
   MAREY_ASSERT(!all.empty());
-  std::vector<double> steps_cm_s;
-  std::vector<double> means_cm_s;
+  MethodFigures out;
   std::vector<double> accelerations;
   std::vector<double> settled_s;
-  MethodFigures out;
   for (const TransitionFigures& one : all) {
-    steps_cm_s.insert(steps_cm_s.end(), one.slides_cm_s.begin(), one.slides_cm_s.end());
-    if (!one.slides_cm_s.empty()) means_cm_s.push_back(one.slide_cm_s);
     accelerations.push_back(one.acceleration);
     settled_s.push_back(one.settled_s);
     out.jerk_mean += one.jerk / static_cast<double>(all.size());
@@ -233,9 +275,7 @@ MethodFigures summarize(const std::vector<TransitionFigures>& all) {
     out.hips_beyond_worst_cm = std::max(out.hips_beyond_worst_cm, one.hips_beyond_cm);
     out.leg_extension_worst = std::max(out.leg_extension_worst, one.leg_extension);
   }
-  out.slide_mean_cm_s = mean_of(steps_cm_s);
-  if (!steps_cm_s.empty()) out.slide_step_p95_cm_s = quantile(steps_cm_s, 0.95);
-  if (!means_cm_s.empty()) out.slide_p95_cm_s = quantile(means_cm_s, 0.95);
+  summarize_slides(all, out);
   out.acceleration_median = median(accelerations);
   out.acceleration_worst = quantile(accelerations, 1.0);
   out.settled_median_s = median(settled_s);

@@ -55,14 +55,22 @@ struct SourceFigures {
   double mean_jerk_m_s3 = 0.0;  ///< Of the clip that has more.
 };
 
+/// Horizontal speeds in the steps in which feet bear. [cm/s]
+struct SlideSamples {
+  std::vector<double> points;  ///< Every foot point that bears.
+  /// Every foot that bears: its slower bearing point. A foot that rolls over its ball
+  /// does not slide by this measure, though its ankle moves.
+  std::vector<double> feet;
+};
+
 /// Figures of one switch.
 struct TransitionFigures {
-  /// Horizontal speed of every foot point over every step in which it bears, in the 0.3 s
-  /// after the switch. A point bears in the frame in which the step ends if the clip that
-  /// weighs more there bears at its time there. [cm/s]
-  std::vector<double> slides_cm_s;
-  /// Their mean; 0 without any. [cm/s]
-  double slide_cm_s = 0.0;
+  /// In the 0.3 s after the switch. A point bears in the frame in which the step ends if
+  /// the clip that weighs more there bears at its time there.
+  SlideSamples slides;
+  SlideSamples own;              ///< The same points and times in that clip itself.
+  double slide_cm_s = 0.0;       ///< Mean of slides.points; 0 without any.
+  double foot_slide_cm_s = 0.0;  ///< Mean of slides.feet.
   /// Largest acceleration of a joint or tip within 0.5 s of the switch over the sources'.
   double acceleration = 0.0;
   /// Mean jerk of joints and tips within 0.5 s of the switch over the sources'.
@@ -84,9 +92,8 @@ struct TransitionFigures {
 /// Returns the larger ones of both clips.
 [[nodiscard]] SourceFigures source_figures(const SwitchCase& played, double hz);
 
-/// Returns the horizontal speeds of the bearing foot points of a clip itself, over all of
-/// its frames. [cm/s]
-[[nodiscard]] std::vector<double> own_slides_cm_s(const TransitionClip& clip);
+/// Returns the slide of a clip itself, over all of its frames.
+[[nodiscard]] SlideSamples own_slides(const TransitionClip& clip);
 
 /// Judges one switch by its own forward kinematics, labels and differences. `sources` are
 /// those at the motion's rate.
@@ -100,7 +107,10 @@ struct MethodFigures {
   double slide_mean_cm_s = 0.0;  ///< Mean over all bearing steps of all switches.
   /// 95th percentile over switches of TransitionFigures::slide_cm_s.
   double slide_p95_cm_s = 0.0;
-  double slide_step_p95_cm_s = 0.0;  ///< 95th percentile over all bearing steps.
+  double own_slide_mean_cm_s = 0.0;   ///< Of the clips in the same steps.
+  double foot_slide_mean_cm_s = 0.0;  ///< The same of SlideSamples::feet.
+  double foot_slide_p95_cm_s = 0.0;
+  double own_foot_slide_mean_cm_s = 0.0;
   double acceleration_median = 0.0;
   double acceleration_worst = 0.0;
   double jerk_mean = 0.0;
