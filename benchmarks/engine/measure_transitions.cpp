@@ -15,13 +15,13 @@
 // only the times of both clips and their weights. Slide: horizontal speed of ankles and
 // toe joints in the 0.3 s after the switch, while the clip that weighs more bears there
 // (slower than 50 cm/s, lower than 5 cm above the resting height, in the clip itself).
-// Its 95th percentile is over switches. A foot that rolls moves its ankle, so the slide
-// of the clips themselves in the same steps stands next to it; "feet" counts only the
-// slower bearing point of each foot. Acceleration: the largest of a joint or tip
-// within 0.5 s of the switch, over that of both clips. Jerk: the mean over joints and
-// tips within 0.5 s of the switch, over that of the clip that has more; the column after
-// it is that of the 0.3 s after the switch. Both clips and results are compared at the
-// result's rate.
+// Its 95th percentile is over switches. A foot that rolls, lands or leaves moves by this
+// label, so the slide of the clips themselves in the same steps stands next to it;
+// "still" counts only the points that are slower than 15 cm/s in the clip. Acceleration:
+// the largest of a joint or tip within 0.5 s of the switch, over that of both clips.
+// Jerk: the mean over joints and tips within 0.5 s of the switch, over that of the clip
+// that has more; the column after it is that of the 0.3 s after the switch. Both clips
+// and results are compared at the result's rate.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -73,9 +73,9 @@ std::vector<TableCell> row_of(std::string method, const MethodFigures& figures) 
           figures.slide_mean_cm_s,
           figures.slide_p95_cm_s,
           figures.own_slide_mean_cm_s,
-          figures.foot_slide_mean_cm_s,
-          figures.foot_slide_p95_cm_s,
-          figures.own_foot_slide_mean_cm_s,
+          figures.still_slide_mean_cm_s,
+          figures.still_slide_p95_cm_s,
+          figures.own_still_slide_mean_cm_s,
           figures.acceleration_median,
           figures.acceleration_worst,
           figures.jerk_mean,
@@ -120,7 +120,7 @@ ResultTable transition_table(const std::string& id,
                      {"slide cm/s, mean", 1},
                      {"p95", 1},
                      {"clips' own", 1},
-                     {"feet cm/s, mean", 1},
+                     {"still cm/s, mean", 1},
                      {"p95", 1},
                      {"clips' own", 1},
                      {"acceleration, median", 2},
@@ -152,7 +152,7 @@ ResultTable clip_table(const TransitionClips& clips) {
                     {{"clip"},
                      {"slide cm/s, mean", 1},
                      {"p95 of steps", 1},
-                     {"feet, mean", 1},
+                     {"still, mean", 1},
                      {"greatest acceleration m/s^2", 0},
                      {"at 60 Hz", 0},
                      {"mean jerk m/s^3", 0},
@@ -170,7 +170,7 @@ ResultTable clip_table(const TransitionClips& clips) {
     table.rows.push_back({clip->name,
                           mean_slide(slides.points),
                           quantile(slides.points, 0.95),
-                          mean_slide(slides.feet),
+                          mean_slide(slides.still),
                           full.peak_acceleration_m_s2,
                           half.peak_acceleration_m_s2,
                           full.mean_jerk_m_s3,

@@ -88,21 +88,20 @@ double mean_of(const std::vector<double>& values) {
   return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
 }
 
-/// Sides of the foot points alternate: left, right ankle, left, right toe joint.
-constexpr std::size_t kSides = 2;
+constexpr double kStill_cm_s = 15.0;
 
-// Adds the slides of one step. `speed_cm_s` and `bears` are called with a foot point.
-template <class Speed, class Bears>
-void add_slides(const Speed& speed_cm_s, const Bears& bears, SlideSamples& out) {
-  for (std::size_t side = 0; side < kSides; ++side) {
-    std::optional<double> slower_cm_s;
-    for (std::size_t point = side; point < kFootPoints; point += kSides) {
-      if (!bears(point)) continue;
-      const double slide_cm_s = speed_cm_s(point);
-      out.points.push_back(slide_cm_s);
-      slower_cm_s = std::min(slower_cm_s.value_or(slide_cm_s), slide_cm_s);
-    }
-    if (slower_cm_s) out.feet.push_back(*slower_cm_s);
+// Adds the slides of one step at a time of a clip. `speed_cm_s` is called with a point.
+template <class Speed>
+void add_slides(const TransitionClip& clip,
+                double time_s,
+                const Speed& speed_cm_s,
+                SlideSamples& out) {
+  for (std::size_t point = 0; point < kFootPoints; ++point) {
+    if (!bears_at(clip, point, time_s)) continue;
+    const double slide_cm_s = speed_cm_s(point);
+    out.points.push_back(slide_cm_s);
+    if (own_slide_cm_s(clip, point, time_s) > kStill_cm_s) continue;
+    out.still.push_back(slide_cm_s);
   }
 }
 
@@ -118,19 +117,19 @@ void measure_slides(const SwitchCase& played,
     const std::size_t heavier = shown.weight[1] >= shown.weight[0] ? 1 : 0;
     const TransitionClip& clip = heavier == 1 ? *played.to : *played.from;
     const double time_s = shown.source_s[heavier];
-    const auto bears = [&](std::size_t point) {
-      return !paths[point].empty() && bears_at(clip, point, time_s);
-    };
     add_slides(
+        clip,
+        time_s,
         [&](std::size_t point) {
           return horizontal_speed_cm_s(
               paths[point][t - 1], paths[point][t], result.motion.rate.hz);
         },
-        bears,
         out.slides);
-    add_slides([&](std::size_t point) { return own_slide_cm_s(clip, point, time_s); },
-               bears,
-               out.own);
+    add_slides(
+        clip,
+        time_s,
+        [&](std::size_t point) { return own_slide_cm_s(clip, point, time_s); },
+        out.own);
   }
 }
 
@@ -181,27 +180,26 @@ void append(const std::vector<double>& from, std::vector<double>& to) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-// Switches in which no foot bears have no slide.
+// Switches in which no foot bears have no mean.
 void summarize_slides(const std::vector<TransitionFigures>& all, MethodFigures& out) {
   SlideSamples slides;
   SlideSamples own;
   SlideSamples means;
   for (const TransitionFigures& one : all) {
     append(one.slides.points, slides.points);
-    append(one.slides.feet, slides.feet);
+    append(one.slides.still, slides.still);
     append(one.own.points, own.points);
-    append(one.own.feet, own.feet);
+    append(one.own.still, own.still);
     if (one.slides.points.empty()) continue;
     means.points.push_back(one.slide_cm_s);
-    means.feet.push_back(one.foot_slide_cm_s);
+    if (!one.slides.still.empty()) means.still.push_back(one.still_slide_cm_s);
   }
   out.slide_mean_cm_s = mean_of(slides.points);
   out.own_slide_mean_cm_s = mean_of(own.points);
-  out.foot_slide_mean_cm_s = mean_of(slides.feet);
-  out.own_foot_slide_mean_cm_s = mean_of(own.feet);
-  if (means.points.empty()) return;
-  out.slide_p95_cm_s = quantile(means.points, 0.95);
-  out.foot_slide_p95_cm_s = quantile(means.feet, 0.95);
+  out.still_slide_mean_cm_s = mean_of(slides.still);
+  out.own_still_slide_mean_cm_s = mean_of(own.still);
+  if (!means.points.empty()) out.slide_p95_cm_s = quantile(means.points, 0.95);
+  if (!means.still.empty()) out.still_slide_p95_cm_s = quantile(means.still, 0.95);
 }
 
 }  // namespace
@@ -224,9 +222,11 @@ SlideSamples own_slides(const TransitionClip& clip) {
   SlideSamples out;
   for (int frame = 1; frame < clip.frame_count(); ++frame) {
     const double time_s = frame / clip.motion.rate.hz;
-    add_slides([&](std::size_t point) { return own_slide_cm_s(clip, point, time_s); },
-               [&](std::size_t point) { return bears_at(clip, point, time_s); },
-               out);
+    add_slides(
+        clip,
+        time_s,
+        [&](std::size_t point) { return own_slide_cm_s(clip, point, time_s); },
+        out);
   }
   return out;
 }
@@ -237,6 +237,11 @@ TransitionFigures judge(const SwitchCase& played,
   const double hz = result.motion.rate.hz;
   const auto map = retarget::map_body(result.motion.skeleton);
   MAREY_ASSERT(map.has_value());
+  for (const HumanBone bone : retarget::kContactBones) {
+    // Bodies of results have the toes of the clips.
+    MAREY_ASSERT(map->joint_of[index(bone)].has_value() ||
+                 !played.from->map.joint_of[index(bone)].has_value());
+  }
   MAREY_ASSERT(result.frames.size() == result.motion.poses.size());
   MAREY_ASSERT(result.blend_hips_in_world.empty() ||
                result.blend_hips_in_world.size() == result.motion.poses.size());
@@ -251,7 +256,7 @@ TransitionFigures judge(const SwitchCase& played,
   TransitionFigures out;
   measure_slides(played, result, *map, after, out);
   out.slide_cm_s = mean_of(out.slides.points);
-  out.foot_slide_cm_s = mean_of(out.slides.feet);
+  out.still_slide_cm_s = mean_of(out.slides.still);
   out.acceleration =
       largest_acceleration(places, around, hz) / sources.peak_acceleration_m_s2;
   out.jerk = mean_jerk_of(places, around, hz) / sources.mean_jerk_m_s3;

@@ -58,9 +58,9 @@ struct SourceFigures {
 /// Horizontal speeds in the steps in which feet bear. [cm/s]
 struct SlideSamples {
   std::vector<double> points;  ///< Every foot point that bears.
-  /// Every foot that bears: its slower bearing point. A foot that rolls over its ball
-  /// does not slide by this measure, though its ankle moves.
-  std::vector<double> feet;
+  /// Those of them that are slower than 15 cm/s in the clip itself: without the parts of
+  /// the loose label in which a foot rolls, lands or leaves.
+  std::vector<double> still;
 };
 
 /// Figures of one switch.
@@ -68,9 +68,9 @@ struct TransitionFigures {
   /// In the 0.3 s after the switch. A point bears in the frame in which the step ends if
   /// the clip that weighs more there bears at its time there.
   SlideSamples slides;
-  SlideSamples own;              ///< The same points and times in that clip itself.
-  double slide_cm_s = 0.0;       ///< Mean of slides.points; 0 without any.
-  double foot_slide_cm_s = 0.0;  ///< Mean of slides.feet.
+  SlideSamples own;               ///< The same points and times in that clip itself.
+  double slide_cm_s = 0.0;        ///< Mean of slides.points; 0 without any.
+  double still_slide_cm_s = 0.0;  ///< Mean of slides.still.
   /// Largest acceleration of a joint or tip within 0.5 s of the switch over the sources'.
   double acceleration = 0.0;
   /// Mean jerk of joints and tips within 0.5 s of the switch over the sources'.
@@ -97,7 +97,8 @@ struct TransitionFigures {
 
 /// Judges one switch by its own forward kinematics, labels and differences. `sources` are
 /// those at the motion's rate.
-/// Precondition: the result is as TransitionResult requires; its skeleton can be mapped.
+/// Precondition: the result is as TransitionResult requires; its skeleton can be mapped,
+/// and has toes if those of the clips have.
 [[nodiscard]] TransitionFigures judge(const SwitchCase& played,
                                       const TransitionResult& result,
                                       const SourceFigures& sources);
@@ -107,10 +108,10 @@ struct MethodFigures {
   double slide_mean_cm_s = 0.0;  ///< Mean over all bearing steps of all switches.
   /// 95th percentile over switches of TransitionFigures::slide_cm_s.
   double slide_p95_cm_s = 0.0;
-  double own_slide_mean_cm_s = 0.0;   ///< Of the clips in the same steps.
-  double foot_slide_mean_cm_s = 0.0;  ///< The same of SlideSamples::feet.
-  double foot_slide_p95_cm_s = 0.0;
-  double own_foot_slide_mean_cm_s = 0.0;
+  double own_slide_mean_cm_s = 0.0;    ///< Of the clips in the same steps.
+  double still_slide_mean_cm_s = 0.0;  ///< The same of SlideSamples::still.
+  double still_slide_p95_cm_s = 0.0;
+  double own_still_slide_mean_cm_s = 0.0;
   double acceleration_median = 0.0;
   double acceleration_worst = 0.0;
   double jerk_mean = 0.0;
