@@ -51,7 +51,7 @@ struct LoopFigures {
   /// Largest distance of a joint from the clip's in the last cycle, hips on hips. [mm]
   double posture_error_mm = 0.0;
   /// Largest acceleration of a joint or tip in the last cycle: in the frame at the seam
-  /// and both beside it, and in all others. [m/s^2]
+  /// and its two neighbours, and in all other frames. [m/s^2]
   double seam_m_s2 = 0.0;
   double inner_m_s2 = 0.0;
 };

@@ -19,7 +19,7 @@ struct SwitchCase {
   const TransitionClip* to = nullptr;
   /// Time of `from` at the switch: a whole frame.
   double leave_s = 0.0;
-  /// Time of `to` that is asked for at the switch: a whole frame. A method that
+  /// Requested time of `to` at the switch: a whole frame. A method that
   /// synchronises may enter elsewhere.
   double enter_s = 0.0;
 };
@@ -52,14 +52,14 @@ struct TransitionResult {
 /// Largest values of both clips, to which those of a result are compared.
 struct SourceFigures {
   double peak_acceleration_m_s2 = 0.0;
-  double mean_jerk_m_s3 = 0.0;  ///< Of the clip that has more.
+  double mean_jerk_m_s3 = 0.0;  ///< The larger one.
 };
 
 /// Horizontal speeds in the steps in which feet bear. [cm/s]
 struct SlideSamples {
   std::vector<double> points;  ///< Every foot point that bears.
-  /// Those of them that are slower than 15 cm/s in the clip itself: without the parts of
-  /// the loose label in which a foot rolls, lands or leaves.
+  /// The points that are also slower than 15 cm/s in the clip itself. This excludes the
+  /// steps in which a foot rolls, lands or leaves.
   std::vector<double> still;
 };
 
@@ -108,7 +108,7 @@ struct MethodFigures {
   double slide_mean_cm_s = 0.0;  ///< Mean over all bearing steps of all switches.
   /// 95th percentile over switches of TransitionFigures::slide_cm_s.
   double slide_p95_cm_s = 0.0;
-  double own_slide_mean_cm_s = 0.0;    ///< Of the clips in the same steps.
+  double own_slide_mean_cm_s = 0.0;    ///< The clips' own.
   double still_slide_mean_cm_s = 0.0;  ///< The same of SlideSamples::still.
   double still_slide_p95_cm_s = 0.0;
   double own_still_slide_mean_cm_s = 0.0;

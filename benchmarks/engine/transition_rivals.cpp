@@ -109,8 +109,8 @@ class RivalPlayer {
   HeadingClip to_;
   PostureDifference gap_;       ///< First clip minus second one at the switch.
   PostureDifference gap_rate_;  ///< [1/s]
-  PostureDifference velocity_;  ///< Of the first clip at the switch. [1/s]
-  FloorStep last_step_;         ///< Of the first clip before the switch.
+  PostureDifference velocity_;  ///< First clip at the switch. [1/s]
+  FloorStep last_step_;         ///< First clip before the switch.
   FloorStep step_gap_;
 };
 
@@ -286,7 +286,7 @@ double synchronised_entry_s(const SwitchCase& played) {
   double least = 1e9;
   for (int entry = std::max(1, asked - reach); entry <= std::min(last, asked + reach);
        ++entry) {
-    // Entries with the same supports: the one next to the time that was asked for.
+    // Entries with the same supports: the one next to the requested time.
     double cost = 1e-3 * std::abs(entry - asked);
     for (int k = 0; k <= window; ++k) {
       for (std::size_t point = 0; point < kFootPoints; ++point) {

@@ -28,7 +28,7 @@ enum class RivalMethod {
 struct RivalOptions {
   RivalMethod method = RivalMethod::kCrossfade;
   /// Enters the second clip where its supports agree best with the first one's: anywhere
-  /// in a cyclic clip, else within 0.5 s of the time that is asked for.
+  /// in a cyclic clip, else within 0.5 s of the requested time.
   bool is_synchronised = false;
   /// The root follows the bearing feet of the blended posture during the transition.
   bool is_anchored = false;
