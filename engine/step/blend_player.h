@@ -29,8 +29,8 @@ struct TransitionReport {
 
 struct BlendPlayerOptions {
   double half_life_s = 0.1;  ///< Of inertial offsets.
-  double max_incompatible_s = 0.05;
-  double anchor_fade_s = 0.1;
+  double max_incompatible_s = 0.10;
+  double anchor_fade_s = 0.05;
   bool anchors_root = true;
 };
 

@@ -144,8 +144,7 @@ bool BlendPlayer::synchronise(Action& action, double time_s, bool always) {
   const SyncPlan plan =
       plan_sync(lead_side, side(action, range.middle_s, action.rate), sync);
   report_.incompatible_s = plan.incompatible_s;
-  const bool is_good =
-      !plan.only_inertial && plan.incompatible_s < options_.max_incompatible_s;
+  const bool is_good = plan.incompatible_s < options_.max_incompatible_s;
   if (!is_good && !always) return false;
   std::array<WarpKnot, kMaxSyncKnots> knots{};
   for (std::size_t i = 0; i < plan.knot_count; ++i) {
