@@ -39,7 +39,9 @@ Coefficients quintic(double source_s,
   const double w = end_rate * length_s;
   const double a = 0.5 * acceleration * length_s * length_s;
   // On a line, rounding would leave an acceleration.
-  if (rate == end_rate && a == 0.0 && std::abs(change_s - v) <= 1e-15 * v) {
+  constexpr double kRounding = 1e-12;
+  if (std::abs(rate - end_rate) <= kRounding && a == 0.0 &&
+      std::abs(change_s - v) <= kRounding * std::min(1.0, v)) {
     return {source_s, v, 0.0, 0.0, 0.0, 0.0};
   }
   return {source_s,
@@ -171,7 +173,7 @@ double slope(const WarpKnot& before, const WarpKnot& at, const WarpKnot& after) 
   const double b = (after.source_s - at.source_s) / (after.time_s - at.time_s);
   // The knot itself is out of reach if the mean is not positive; its neighbours decide.
   const double mean = a <= 0.0 ? kLowRate : (a == b ? a : 2.0 * a * b / (a + b));
-  if (a == b && mean >= kMinWarpRate && mean <= kMaxWarpRate) return mean;
+  if (std::abs(a - b) <= 1e-12) return std::clamp(a, kMinWarpRate, kMaxWarpRate);
   const auto [low_a, high_a] = end_rates(std::clamp(a, kLowRate, kHighRate));
   const auto [low_b, high_b] = end_rates(std::clamp(b, kLowRate, kHighRate));
   const double low = std::max(low_a, low_b);

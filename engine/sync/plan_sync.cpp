@@ -110,7 +110,10 @@ class SyncSearch {
   void search_edges();
   /// Searches all courses whose first match is one of `first_edges` of the edges.
   void search_window(std::size_t first_edges);
+  /// Enters so that the follower's own speed leads to a match, or as near to that as
+  /// permitted, or where asked.
   void enter(std::size_t i, std::size_t j);
+  void enter_from(std::size_t i, std::size_t j, double entry_s, bool is_own_speed);
   void advance(std::size_t i, std::size_t j);
   /// Whether an edge is at most kMaxStep edges after a place in this phase.
   [[nodiscard]] bool is_near(PhaseRing::Place place, double edge_s) const;
@@ -154,7 +157,7 @@ void SyncSearch::try_rate_one(double entry_s) {
 void SyncSearch::search_edges() {
   if (ring_.edges() == 0) return;
   PhaseRing::Place place = ring_.at(entry_.first_s);
-  std::size_t remaining = ring_.edges();
+  std::size_t remaining = std::max(ring_.edges(), kMaxStep);
   if (!entry_.anywhere) {
     // Edges up to kMaxStep after the last entry.
     PhaseRing::Place end = ring_.at(entry_.last_s);
@@ -196,26 +199,31 @@ void SyncSearch::search_window(std::size_t first_edges) {
 }
 
 void SyncSearch::enter(std::size_t i, std::size_t j) {
-  const double time_s = edge_time_s(i);
-  const double wanted_s = edges_[j].source_s - follower_.speed * time_s;
+  const double wanted_s = edges_[j].source_s - follower_.speed * edge_time_s(i);
   const double entry_s =
       entry_.anywhere ? wanted_s : std::clamp(wanted_s, entry_.first_s, entry_.last_s);
+  if (i > 0 || entry_s == wanted_s) enter_from(i, j, entry_s, entry_s == wanted_s);
+  if (i > 0 && entry_s != follower_.now_s) enter_from(i, j, follower_.now_s, false);
+}
+
+void SyncSearch::enter_from(std::size_t i,
+                            std::size_t j,
+                            double entry_s,
+                            bool is_own_speed) {
   SyncState entered{.cost = shift_cost(entry_s), .entry_s = entry_s};
-  if (i == 0) {
-    if (entry_s == wanted_s) offer(i, j, entered);
-    return;
+  if (i > 0) {
+    const double time_s = edge_time_s(i);
+    const double ratio =
+        is_own_speed ? 1.0 : (edges_[j].source_s - entry_s) / (time_s * follower_.speed);
+    if (!is_rate(ratio)) return;
+    entered.cost += rate_cost(0.0, time_s, ratio);
+    if (entered.cost >= std::min(best_cost_, state(i, j).cost)) return;
+    const PhaseRing::Place place = ring_.at(entry_s);
+    if (!is_near(place, edges_[j].source_s)) return;
+    entered.incompatible_s = incompatible_in(
+        lead_, ring_, {0.0, time_s, entry_s, ratio * follower_.speed, 0, place});
+    entered.cost += options_.incompatible_cost_per_s * entered.incompatible_s;
   }
-  const double ratio = entry_s == wanted_s
-                           ? 1.0
-                           : (edges_[j].source_s - entry_s) / (time_s * follower_.speed);
-  if (!is_rate(ratio)) return;
-  entered.cost += rate_cost(0.0, time_s, ratio);
-  if (entered.cost >= std::min(best_cost_, state(i, j).cost)) return;
-  const PhaseRing::Place place = ring_.at(entry_s);
-  if (!is_near(place, edges_[j].source_s)) return;
-  entered.incompatible_s = incompatible_in(
-      lead_, ring_, {0.0, time_s, entry_s, ratio * follower_.speed, 0, place});
-  entered.cost += options_.incompatible_cost_per_s * entered.incompatible_s;
   offer(i, j, entered);
 }
 
