@@ -18,6 +18,7 @@
 
 #include "engine/sync/plan_sync.h"
 
+#include "benchmarks/parts/stand_as_marey.h"
 #include "core/motion.h"
 #include "recordings/motion/asf.h"
 #include "recordings/motion/bvh.h"
@@ -37,7 +38,9 @@ struct SyncClip {
   std::exit(1);
 }
 
-SyncClip clip_of(const Motion& motion) {
+SyncClip clip_of(Motion motion, const retarget::FileUnit& unit) {
+  const auto frame = stand_as_marey(unit, motion);
+  if (!frame) stop(frame.error());
   const auto map = retarget::map_body(motion.skeleton);
   if (!map) stop(map.error());
   const Contacts contacts = retarget::detect_contacts(motion, *map);
@@ -63,20 +66,21 @@ SyncClip read_cmu(const std::filesystem::path& folder, const std::string& name) 
   if (!skeleton) stop(skeleton.error());
   const auto amc = recordings::read_amc(folder / name, *skeleton);
   if (!amc) stop(amc.error());
-  return clip_of(amc->motion);
+  return clip_of(amc->motion, {1.0, true});
 }
 
 SyncClip read_bandai(const std::filesystem::path& folder, const std::string& name) {
   const auto bvh =
       recordings::read_bvh(folder / ("dataset-1_" + name + "_normal_001.bvh"));
   if (!bvh) stop(bvh.error());
-  return clip_of(bvh->motion);
+  return clip_of(bvh->motion, {0.01, false});
 }
 
 void measure_pair(const char* name,
                   const SyncClip& lead,
                   const SyncClip& follower,
-                  bool from_start) {
+                  bool from_start,
+                  double horizon_s) {
   std::mt19937_64 random(7);
   const auto place = [&](double duration_s) {
     return std::uniform_real_distribution<double>(
@@ -93,9 +97,9 @@ void measure_pair(const char* name,
                      false,
                      from_start ? 0.0 : place(follower.duration_s),
                      1.0};
-    const SyncPlan plan = plan_sync(a, b, {.entry_s = 0.5});
+    const SyncPlan plan = plan_sync(a, b, {.horizon_s = horizon_s, .entry_s = 0.5});
     fits += plan.incompatible_s < 0.05 ? 1 : 0;
-    unplanned_fits += incompatible_time_s(a, b, 1.2) < 0.05 ? 1 : 0;
+    unplanned_fits += incompatible_time_s(a, b, horizon_s) < 0.05 ? 1 : 0;
     inertial += plan.only_inertial ? 1 : 0;
     incompatible_s.push_back(plan.incompatible_s);
   }
@@ -159,11 +163,14 @@ int measure(const std::filesystem::path& cmu, const std::filesystem::path& banda
               "without plan",
               "only inertial",
               "incompatible [s]");
-  measure_pair("walk > run", walk, run, false);
-  measure_pair("run > walk", run, walk, false);
-  measure_pair("walk > walk", walk, walk, false);
-  measure_pair("walk > kick", slow, kick, true);
-  measure_pair("walk > dance", slow, dance, true);
+  for (const double horizon_s : {1.2, 0.6, 0.3}) {
+    std::printf("horizon %.1f s\n", horizon_s);
+    measure_pair("walk > run", walk, run, false, horizon_s);
+    measure_pair("run > walk", run, walk, false, horizon_s);
+    measure_pair("walk > walk", walk, walk, false, horizon_s);
+    measure_pair("walk > kick", slow, kick, true, horizon_s);
+    measure_pair("walk > dance", slow, dance, true, horizon_s);
+  }
   return 0;
 }
 
