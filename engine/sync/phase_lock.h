@@ -10,7 +10,7 @@ struct PhaseLockOptions {
   double max_change = 0.2;  ///< Maximum relative change of rate.
   /// Time constant of the estimate of the lead's tempo. [cycles]
   double tempo_cycles = 0.5;
-  double min_rate = 0.5;  ///< Of the follower, relative to its speed.
+  double min_rate = 0.5;  ///< Minimum rate of the follower, relative to its speed.
   double max_rate = 2.0;
 };
 
@@ -32,7 +32,7 @@ class PhaseLock {
   PhaseLockOptions options_;
   double cycle_s_ = 1.0;
   double speed_ = 1.0;
-  double tempo_hz_ = 1.0;  ///< Of the lead.
+  double tempo_hz_ = 1.0;  ///< Tempo of the lead.
   double last_s_ = 0.0;
   double last_lead_phase_ = 0.0;
   double watched_cycles_ = 0.0;

@@ -9,10 +9,10 @@
 
 namespace marey::engine {
 
-/// The phases of a clip over unwrapped time. Those of a clip that loops repeat without
-/// end; its last and first phase are one if their feet are the same. The first phase of
-/// another clip has no start, and its last one no end: the clip holds its last posture.
-/// Refers to the phases; allocates nothing.
+/// The phases of a clip over unwrapped time. The phases of a clip that loops repeat
+/// without end; its last and first phase are one if their feet are the same. The first
+/// phase of another clip has no start, and its last one no end: the clip holds its last
+/// posture. Refers to the phases; allocates nothing.
 class PhaseRing {
  public:
   /// One phase of one repetition.

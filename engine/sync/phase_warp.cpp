@@ -161,7 +161,7 @@ struct PhaseWarp::Course {
     end_at(knot, end_rate);
   }
 
-  /// Whether `knot` can be met from here.
+  /// Returns whether `knot` can be met from here.
   [[nodiscard]] bool reaches(const WarpKnot& knot, double end_rate) const;
 };
 

@@ -115,13 +115,13 @@ class SyncSearch {
   void enter(std::size_t i, std::size_t j);
   void enter_from(std::size_t i, std::size_t j, double entry_s, bool is_own_speed);
   void advance(std::size_t i, std::size_t j);
-  /// Whether an edge is at most kMaxStep edges after a place in this phase.
+  /// Returns whether an edge is at most kMaxStep edges after a place in this phase.
   [[nodiscard]] bool is_near(PhaseRing::Place place, double edge_s) const;
   void offer(std::size_t i, std::size_t j, const SyncState& candidate);
   /// Completes the course to this match with the follower's own speed.
   void complete(std::size_t i, std::size_t j);
   void keep_knots(std::size_t i, std::size_t j);
-  /// Adds the end of the follower's own speed: of the horizon or of the clip.
+  /// Adds a knot at the end of the horizon, or of a clip that ends sooner.
   void add_last_knot();
   [[nodiscard]] SyncPlan finished_plan();
 
