@@ -34,9 +34,9 @@ struct Phase {
 /// landing. [s]
 inline constexpr double kFlightEdge_s = 0.10;
 
-/// Whether two phases may be blended at times of their clips. Equal classes may; kBoth
-/// with one foot; kNone with one or both feet within kFlightEdge_s of an edge between a
-/// flight and a bearing phase in either clip; left with right never.
+/// Returns whether two phases may be blended at times of their clips. Equal classes may;
+/// kBoth with one foot; kNone with one or both feet within kFlightEdge_s of an edge
+/// between a flight and a bearing phase in either clip; left with right never.
 /// `from_edge_s`: the time to the nearest such edge of either clip.
 [[nodiscard]] bool are_compatible(PhaseClass a, PhaseClass b, double from_edge_s);
 

@@ -14,7 +14,7 @@ namespace marey::engine {
 /// A clip that is to be synchronised.
 struct SyncSide {
   std::span<const Phase> phases;  ///< phases_of() its clip.
-  double duration_s = 0.0;        ///< Of the clip.
+  double duration_s = 0.0;        ///< Duration of the clip.
   bool loops = false;
   double now_s = 0.0;  ///< Place in the clip now; in [0, duration] if it does not loop.
   double speed = 1.0;  ///< Clip seconds per second that its user asked for: > 0.
@@ -24,7 +24,7 @@ struct SyncOptions {
   double horizon_s = 1.2;
   int max_phases = 8;
   double incompatible_cost_per_s = 10.0;
-  double min_rate = 0.5;  ///< Of the follower, relative to its speed.
+  double min_rate = 0.5;  ///< Minimum rate of the follower, relative to its speed.
   double max_rate = 2.0;
   /// For a follower that has not begun: it may enter the clip this much later or earlier
   /// than at now_s; a clip that loops may be entered anywhere. 0: it has begun.
@@ -56,10 +56,11 @@ struct SyncPlan {
 /// Plans the times of a follower so that its supports match the lead's (after Menardais,
 /// Kulpa, Multon, Arnaldi 2004, "Synchronization for dynamic blending of motions", in
 /// spirit; dynamic programming over the next phases of both). Cost of matching phase i to
-/// phase j: T (ln rate)^2 + incompatible_cost_per_s times the incompatible time. Always
-/// has an answer. Same input, same bytes; allocates nothing; some ten microseconds.
-/// Precondition: speeds > 0; phases as by phases_of(), at least one; 0 < min_rate <= 1 <=
-/// max_rate.
+/// phase j: T (ln rate)^2 + incompatible_cost_per_s times the incompatible time. Between
+/// two matches, at most three edges of each side are skipped; after the last match the
+/// follower has its own speed. Always has an answer. Same input, same bytes; allocates
+/// nothing; some ten microseconds. Precondition: speeds > 0; phases as by phases_of(), at
+/// least one; 0 < min_rate <= 1 <= max_rate.
 [[nodiscard]] SyncPlan plan_sync(const SyncSide& lead,
                                  const SyncSide& follower,
                                  const SyncOptions& options = {});
