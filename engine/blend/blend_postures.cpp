@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/blend/blend_postures.h"
 
+#include <algorithm>
 #include <array>
 
 #include "engine/blend/blend_rotations.h"
@@ -176,6 +177,17 @@ void set_sides(const BlendPosture& posture, BlendSides& sides) {
   sides.is_known = true;
 }
 
+void blend_counted(Blended& blended, BlendSides& sides, BlendPosture& out) {
+  if (blended.count > 2) {
+    blend_many(blended, sides, out);
+    return;
+  }
+  if (blended.count == 1) blended.sources[1] = blended.sources[0];
+  // Sides of the first source: the shorter arcs decide.
+  if (!sides.is_known) set_sides(*blended.sources[0], sides);
+  blend_two(blended, sides, out);
+}
+
 }  // namespace
 
 void interpolate(const BlendPosture& a,
@@ -187,21 +199,23 @@ void interpolate(const BlendPosture& a,
     out = at == 0.0F ? a : b;
     return;
   }
-  BlendPosture made;  // `out` may be one of the frames.
-  interpolate_rotations(a, b, at, made);
-  for (std::size_t i = 0; i < 4; ++i) {
-    made.extension[i] = linear_value(a.extension[i], b.extension[i], at);
-    made.mid_x[i] = linear_value(a.mid_x[i], b.mid_x[i], at);
-    made.mid_y[i] = linear_value(a.mid_y[i], b.mid_y[i], at);
-    made.upper_twist_rad[i] =
-        linear_angle(a.upper_twist_rad[i], b.upper_twist_rad[i], at);
-    made.lower_twist_rad[i] =
-        linear_angle(a.lower_twist_rad[i], b.lower_twist_rad[i], at);
+  if (&out == &a || &out == &b) {
+    BlendPosture made;
+    interpolate(a, b, at, made);
+    out = made;
+    return;
   }
-  made.height_legs = linear_value(a.height_legs, b.height_legs, at);
-  made.abdomen_share = linear_value(a.abdomen_share, b.abdomen_share, at);
-  made.torso_share = linear_value(a.torso_share, b.torso_share, at);
-  out = made;
+  interpolate_rotations(a, b, at, out);
+  for (std::size_t i = 0; i < 4; ++i) {
+    out.extension[i] = linear_value(a.extension[i], b.extension[i], at);
+    out.mid_x[i] = linear_value(a.mid_x[i], b.mid_x[i], at);
+    out.mid_y[i] = linear_value(a.mid_y[i], b.mid_y[i], at);
+    out.upper_twist_rad[i] = linear_angle(a.upper_twist_rad[i], b.upper_twist_rad[i], at);
+    out.lower_twist_rad[i] = linear_angle(a.lower_twist_rad[i], b.lower_twist_rad[i], at);
+  }
+  out.height_legs = linear_value(a.height_legs, b.height_legs, at);
+  out.abdomen_share = linear_value(a.abdomen_share, b.abdomen_share, at);
+  out.torso_share = linear_value(a.torso_share, b.torso_share, at);
 }
 
 void blend_postures(std::span<const BlendPosture* const> sources,
@@ -209,21 +223,19 @@ void blend_postures(std::span<const BlendPosture* const> sources,
                     BlendSides* sides,
                     BlendPosture& out) {
   MAREY_ASSERT(sources.size() == weights.size() && sources.size() <= kMaxBlended);
-  const Blended blended = normalised(sources, weights);
+  Blended blended = normalised(sources, weights);
   if (blended.count == 0) return;
   BlendSides unknown;
   BlendSides& known = sides != nullptr ? *sides : unknown;
-  BlendPosture made = out;  // `out` may be one of the sources.
-  if (blended.count <= 2) {
-    Blended two = blended;
-    if (two.count == 1) two.sources[1] = two.sources[0];
-    // Sides of the first source: the shorter arcs decide.
-    if (!known.is_known) set_sides(*two.sources[0], known);
-    blend_two(two, known, made);
+  // The kernels read the sources after they write the result.
+  const bool is_source = std::find(sources.begin(), sources.end(), &out) != sources.end();
+  if (is_source) {
+    BlendPosture made = out;
+    blend_counted(blended, known, made);
+    out = made;
   } else {
-    blend_many(blended, known, made);
+    blend_counted(blended, known, out);
   }
-  out = made;
 }
 
 }  // namespace marey::engine

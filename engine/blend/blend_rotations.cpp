@@ -15,6 +15,8 @@ using Lanes = BlendPosture::Rotations;
 // Cosine of half of 240 degrees: two rotations that come further apart than this on the
 // side of the step before are blended on the other side.
 constexpr float kMinKeptCosine = -0.5F;
+// Tangent steps, as in mean_rotation().
+constexpr int kMeanSteps = 2;
 // Squared length of a weighted sum below which it has no direction.
 constexpr float kMinSquaredSum = 1e-8F;
 
@@ -221,11 +223,13 @@ void blend_many_rotations(std::span<const BlendPosture* const> sources,
         *sources[s], weights.of_source[s], heaviest, sides, signs[s], mean, next_side);
   }
   normalise_sums(heaviest, mean);
-  SumLanes logarithm;
-  for (std::size_t s = 0; s < sources.size(); ++s) {
-    add_logarithm(*sources[s], weights.of_source[s], signs[s], mean, logarithm);
+  for (int step = 0; step < kMeanSteps; ++step) {
+    SumLanes logarithm;
+    for (std::size_t s = 0; s < sources.size(); ++s) {
+      add_logarithm(*sources[s], weights.of_source[s], signs[s], mean, logarithm);
+    }
+    turn_sums(logarithm, mean);
   }
-  turn_sums(logarithm, mean);
   for (std::size_t i = 0; i < kPostureRotations; ++i) {
     const LaneMask is_kept = lane_mask(weights.total[i] <= 0.0F);
     store_lane(select_lane(is_kept, lane(out, i), lane(mean, i)), i, out);

@@ -36,7 +36,7 @@ struct LaneWeights {
   BlendPosture::Rotations total;
 };
 
-/// Blends the rotations of more postures by one tangent step about their weighted sum. A
+/// Blends the rotations of more postures by tangent steps about their weighted sum. A
 /// rotation of total weight 0 stays as it is in `out`. `sides` is updated; if unknown,
 /// the heaviest rotations decide. `out` is none of the postures.
 void blend_many_rotations(std::span<const BlendPosture* const> sources,

@@ -13,6 +13,9 @@
 namespace marey::engine {
 namespace {
 
+// One step is off by up to 0.06 degrees at a spread of 120 degrees.
+constexpr int kTangentSteps = 2;
+
 // Vector of half the rotation angle; |q| = 1.
 glm::dvec3 half_log(const glm::dquat& q) {
   const glm::dvec3 v{q.x, q.y, q.z};
@@ -50,13 +53,16 @@ glm::dquat mean_rotation(std::span<const glm::dquat> rotations,
   if (total == weights[heaviest]) return rotations[heaviest];
   // Opposite quaternions cancel: no rotation is between them.
   if (glm::length(sum) < 1e-9 * total) return rotations[heaviest];
-  const glm::dquat about = glm::normalize(sum);
-  glm::dvec3 mean_log{0.0};
-  for (std::size_t i = 0; i < rotations.size(); ++i) {
-    const glm::dquat q = on_side_of(reference, rotations[i]);
-    mean_log += (weights[i] / total) * half_log(glm::conjugate(about) * q);
+  glm::dquat mean = glm::normalize(sum);
+  for (int step = 0; step < kTangentSteps; ++step) {
+    glm::dvec3 mean_log{0.0};
+    for (std::size_t i = 0; i < rotations.size(); ++i) {
+      const glm::dquat q = on_side_of(reference, rotations[i]);
+      mean_log += (weights[i] / total) * half_log(glm::conjugate(mean) * q);
+    }
+    mean = glm::normalize(mean * half_exp(mean_log));
   }
-  return glm::normalize(about * half_exp(mean_log));
+  return mean;
 }
 
 }  // namespace marey::engine

@@ -243,12 +243,17 @@ void InertialOffset::step(float step_s, float half_life_s, BlendPosture& posture
     greatest =
         std::max(greatest, decay_values(decay, half_life_s, values_.data() + at, rate));
   });
-  std::array<float, 3> last_rates{rates_.height, 0.0F, 0.0F};
-  // The shares of the spine have no rates: theirs are 0 at every step, so that they decay
-  // monotonically.
-  greatest = std::max(
-      greatest, decay_values(decay, half_life_s, values_.data() + kHeightAt, last_rates));
-  rates_.height = last_rates[0];
+  std::array<float, 1> height_rate{rates_.height};
+  greatest =
+      std::max(greatest,
+               decay_values(decay, half_life_s, values_.data() + kHeightAt, height_rate));
+  rates_.height = height_rate[0];
+  // The shares of the spine have no rates: a plain exponential decay.
+  const float left = std::exp2(-step_s / half_life_s);
+  for (const std::size_t at : {kAbdomenAt, kTorsoAt}) {
+    values_[at] *= left;
+    greatest = std::max(greatest, std::abs(values_[at]));
+  }
   if (greatest < kNoOffset) {
     is_active_ = false;
     return;
