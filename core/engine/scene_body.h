@@ -72,7 +72,8 @@ struct SceneGroup {
   bool alternates_sex = false;  ///< Odd members are female, even members male.
   int columns = 1;              ///< Members in a row of the grid.
   /// Distance of two columns, and of two rows. A row is filled towards the left of the
-  /// heading; further rows are behind the first one. The grid's middle is at the place.
+  /// heading, to the right if negative; further rows are behind the first one, in front
+  /// of it if negative. The grid's middle is at the place. [m]
   std::array<double, 2> spacing_m{1.0, 1.0};
 };
 

@@ -34,7 +34,7 @@ enum class SceneFigureKind {
   kStepTime,        ///< Mean time of one step of all bodies, by the clock.
 };
 
-/// Keys that a kind of figure needs besides its bodies, and its unit in names of keys.
+/// Keys that a kind of figure needs, and its unit in names of keys.
 struct SceneFigureRule {
   SceneFigureKind kind{};
   std::string_view word;  ///< "wrist_error".
