@@ -19,23 +19,23 @@ namespace marey {
 
 /// A scene of `marey stage` (docs/formats/scene.md): bodies, targets, a script, results.
 struct Scene {
-  std::string name;
+  std::string name{};
   std::uint64_t seed = 0;
   double step_hz = 60.0;
   double duration_s = 10.0;
-  std::string base;   ///< File of clips (moves.marey).
-  std::string floor;  ///< File of the floor; empty: a level floor at height 0.
+  std::string base{};   ///< File of clips (moves.marey).
+  std::string floor{};  ///< File of the floor; empty: a level floor at height 0.
   double gravity_m_s2 = 9.81;
   /// Detail budget of a step; nullopt: no limit, all bodies at level 2, full rate.
   std::optional<double> budget_units{};
   /// Cost of one body's step at levels 0 to 3; nullopt: the engine's table.
   std::optional<std::array<double, 4>> cost_units{};
-  std::vector<SceneBody> bodies;
-  std::vector<SceneGroup> groups;
-  std::vector<SceneTarget> targets;
-  std::vector<SceneAction> script;  ///< In the order of the file.
-  std::vector<SceneFigure> figures;
-  SceneOutputs out;
+  std::vector<SceneBody> bodies{};
+  std::vector<SceneGroup> groups{};
+  std::vector<SceneTarget> targets{};
+  std::vector<SceneAction> script{};  ///< In the order of the file.
+  std::vector<SceneFigure> figures{};
+  SceneOutputs out{};
 
   [[nodiscard]] const SceneTarget* target(std::string_view id) const;
   [[nodiscard]] const SceneAction* action(std::string_view id) const;

@@ -22,7 +22,7 @@ enum class SceneTransition { kAuto, kCrossfade, kInertial, kExtrapolate };
 
 /// Plays a clip.
 struct ScenePlay {
-  std::string clip;
+  std::string clip{};
   bool loops = false;           ///< Without an end.
   std::optional<int> cycles{};  ///< Number of cycles; excludes `loops`. nullopt: once.
   double rate = 1.0;            ///< Seconds of the clip per second: 0.25 to 4.
@@ -32,14 +32,14 @@ struct ScenePlay {
 
 /// Stops actions of the body.
 struct SceneStop {
-  std::string action;          ///< Id of the action; empty: all of the layers.
+  std::string action{};        ///< Id of the action; empty: all of the layers.
   std::optional<int> layer{};  ///< Only this layer, if `action` is empty.
 };
 
 /// Moves a hand to a target (Kulpa 2005, figure 7.6).
 struct SceneReach {
-  std::string clip;
-  std::string target;
+  std::string clip{};
+  std::string target{};
   SceneHand hand = SceneHand::kRight;
   /// Point of the hand that arrives, from the wrist. [m]
   glm::dvec3 offset_in_t_pose{0.0};
@@ -54,7 +54,7 @@ struct SceneReach {
 
 /// Throws a ball (Kulpa 2005, figure 7.7). A value that is absent is the captured one.
 struct SceneThrow {
-  std::string clip;
+  std::string clip{};
   SceneHand hand = SceneHand::kRight;
   /// Wrist at release, in the heading frame of the hips: left, up, forward. [m]
   std::array<std::optional<double>, 3> place_m{};
@@ -63,20 +63,20 @@ struct SceneThrow {
   std::optional<double> speed_m_s{};
   std::optional<double> release_s{};  ///< Time from start to release.
   /// Target through which the ball flies; it replaces azimuth and elevation. Empty: none.
-  std::string aim;
+  std::string aim{};
   /// Drag: deceleration divided by the speed squared. [1/m]
   double drag_1_m = 0.0;
   /// File of trials (docs/formats/trials.md): the throw is repeated for each, with its
   /// parameter. Empty: once.
-  std::string trials;
+  std::string trials{};
   double every_s = 0.0;  ///< Time from one trial to the next.
 };
 
 /// Turns and lengthens the steps of a clip so that it arrives (Kulpa 2005, figure 7.8).
 struct SceneSteer {
-  std::string clip;
-  std::string target;
-  std::string stop_clip;  ///< Plays at the arrival; empty: the idle clip.
+  std::string clip{};
+  std::string target{};
+  std::string stop_clip{};  ///< Plays at the arrival; empty: the idle clip.
   double max_turn_rad = 0.6108652381980153;     ///< A step: 35 degrees.
   double max_turn_rad_s = 2.0943951023931953;   ///< 120 degrees/s.
   std::array<double, 2> step_length{0.7, 1.3};  ///< Factors of the step length.
@@ -89,19 +89,19 @@ struct SceneSteer {
 /// Changes the jump of a clip (docs/jumps.md). At most one of the two apex values;
 /// length_m and target exclude each other.
 struct SceneJump {
-  std::string clip;
+  std::string clip{};
   std::optional<double> apex_m{};     ///< Above the floor of the take-off.
   std::optional<double> apex_by_m{};  ///< Added to the captured apex.
   std::optional<double> airtime_s{};
   std::optional<double> length_m{};
   std::optional<double> box_m{};  ///< Height of the landing above the take-off.
-  std::string target;             ///< Landing; empty: none.
+  std::string target{};           ///< Landing; empty: none.
 };
 
 /// A point of the body follows a target at once, without a clip: a performer's hand.
 struct SceneFollow {
-  std::string target;
-  BodyPoint point;
+  std::string target{};
+  BodyPoint point{};
   double max_speed_m_s = 10.0;
 };
 
@@ -122,8 +122,8 @@ enum class SceneConstraintType {
 /// Holds a constraint whose place is a target.
 struct SceneConstrain {
   SceneConstraintType type = SceneConstraintType::kPoint;
-  std::string target;  ///< Empty for kOriented only.
-  BodyPoint point;
+  std::string target{};  ///< Empty for kOriented only.
+  BodyPoint point{};
   double distance_m = 0.0;  ///< For kPoint.
   glm::dvec3 size_m{0.0};   ///< For boxes: edges along the world's axes.
   std::optional<glm::dquat> world_from_t_pose{};  ///< For kOriented.
@@ -148,14 +148,14 @@ inline constexpr std::array<std::string_view, std::variant_size_v<SceneDeed>> kS
 
 /// One line of the script. An action on a group is one action of each member.
 struct SceneAction {
-  std::string id;    ///< Different for all actions; may be empty.
-  std::string body;  ///< Id of a body, of a group or of a member.
-  SceneDeed deed;
+  std::string id{};    ///< Different for all actions; may be empty.
+  std::string body{};  ///< Id of a body, of a group or of a member.
+  SceneDeed deed{};
   double time_s = 0.0;  ///< Start, in the scene; with `after`: the earliest one.
   /// Id of an action of the same bodies: starts when it ends, or at its `event`. Empty:
   /// starts at time_s.
-  std::string after;
-  std::string event;              ///< Annotation of that action's clip; empty: its end.
+  std::string after{};
+  std::string event{};            ///< Annotation of that action's clip; empty: its end.
   std::optional<double> for_s{};  ///< Ends this long after its start.
   int layer = 0;                  ///< 0 to 7; higher layers cover lower ones.
   double priority = 1.0;

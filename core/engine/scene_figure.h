@@ -87,12 +87,12 @@ inline constexpr std::array<SceneFigureRule, 15> kSceneFigureRules{{
 struct SceneFigure {
   SceneFigureKind kind = SceneFigureKind::kWristError;
   /// Ids of bodies, groups or members.
-  std::vector<std::string> bodies;
-  BodyPoint point;
-  std::string target;
-  std::string action;
-  std::string event;
-  std::string clip;
+  std::vector<std::string> bodies{};
+  BodyPoint point{};
+  std::string target{};
+  std::string action{};
+  std::string event{};
+  std::string clip{};
   std::optional<double> min{};  ///< Smallest allowed value, in the unit of the kind.
   std::optional<double> max{};  ///< Largest allowed value.
   /// The value of each body must exceed that of the body before it.
@@ -113,7 +113,7 @@ struct ScenePicture {
 
 /// A body that is sent by VMC, live.
 struct SceneVmc {
-  std::string body;  ///< Id of a body or of a member.
+  std::string body{};  ///< Id of a body or of a member.
   int port = 0;
 };
 
@@ -121,8 +121,8 @@ struct SceneVmc {
 struct SceneOutputs {
   bool glb = true;            ///< One file with all bodies.
   double glb_rate_hz = 30.0;  ///< Frames a second in it.
-  std::vector<ScenePicture> pictures;
-  std::vector<SceneVmc> vmc;
+  std::vector<ScenePicture> pictures{};
+  std::vector<SceneVmc> vmc{};
 };
 
 }  // namespace marey

@@ -44,7 +44,7 @@ struct SceneDependency {
 /// first.
 struct DependencyCycle {
   double time_s = 0.0;
-  std::vector<SceneDependency> links;
+  std::vector<SceneDependency> links{};
 };
 
 /// Returns the earliest cycle; nullopt: there is none at any time. Linear in

@@ -36,7 +36,7 @@ enum class PathCourse {
 
 /// Points over time. Before the first and after the last one the target rests.
 struct PolylinePath {
-  std::vector<double> times_s;  ///< Ascending, at least one.
+  std::vector<double> times_s{};  ///< Ascending, at least one.
   std::vector<glm::dvec3> positions_m;
   PathCourse course = PathCourse::kLinear;
 };
@@ -44,8 +44,8 @@ struct PolylinePath {
 /// A point of another body. Several bodies (a group) use it member by member: the k-th
 /// user has the k-th body; a single body serves all users.
 struct BodyPointPath {
-  std::string body;  ///< Id of a body, of a group or of a member.
-  BodyPoint point;
+  std::string body{};  ///< Id of a body, of a group or of a member.
+  BodyPoint point{};
   /// The point is that of the step before, so that bodies may depend on each other.
   bool last_step = false;
 };
@@ -60,8 +60,8 @@ enum class TargetFrame {
 
 /// A target that actions and figures refer to.
 struct SceneTarget {
-  std::string id;
-  TargetPath path;
+  std::string id{};
+  TargetPath path{};
   TargetFrame frame = TargetFrame::kWorld;
   /// With TargetFrame::kBody: positions are those for a body of this stature. They are
   /// multiplied by the user's stature divided by this one. nullopt: metres for every

@@ -49,10 +49,10 @@ enum class TrialOrder {
 
 /// Trials of a study (docs/formats/trials.md).
 struct TrialList {
-  std::string name;
+  std::string name{};
   std::uint64_t seed = 0;
   TrialOrder order = TrialOrder::kBlocks;
-  std::vector<ThrowTrial> trials;
+  std::vector<ThrowTrial> trials{};
 };
 
 /// One throw of the study.
