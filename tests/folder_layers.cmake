@@ -4,7 +4,7 @@
 # Folders inside the rooms, lowest first: a file may include its own folder and those
 # before it. "." is the room's top folder. docs/architecture.md describes each folder;
 # tests/folders.cmake checks the order.
-set(core_LAYERS base signal . human edit library)
+set(core_LAYERS base signal . human edit library engine)
 set(capture_LAYERS v4l2 sync video tags boards search feeds)
 set(calib_LAYERS model bundle rig plan quality)
 set(reconstruct_LAYERS
@@ -15,7 +15,7 @@ set(retarget_LAYERS
 set(dynamics_LAYERS push flight momentum balance jumps)
 set(edit_LAYERS signal state balance find filter splice jump ops markers .)
 set(library_LAYERS clips features quality search duplicates segments labels export)
-set(recordings_LAYERS base body edit takes motion gltf markers print session library)
+set(recordings_LAYERS base body edit takes motion gltf markers print session library scene)
 set(live_LAYERS udp vmc page web)
 set(app_LAYERS
   shell motion pages adapt convert print plan record check markers process retarget

@@ -25,14 +25,19 @@ struct KindKeys {
 };
 
 /// The most specific kinds first. Calibrations have names of cameras as keys.
-const std::array<KindKeys, 9>& kinds_of_toml() {
-  static const std::array<KindKeys, 9> kKinds{
+const std::array<KindKeys, 11>& kinds_of_toml() {
+  static const std::array<KindKeys, 11> kKinds{
       {{TomlKind::kCalibration, "a calibration", {}},
        {TomlKind::kSession,
         "a session",
         {"trial", "board", "wand", "media", "tags"},
         {"camera"}},
        {TomlKind::kEditRecipe, "a recipe of edits", {"source", "op"}, {"limits"}},
+       {TomlKind::kScene,
+        "a scene",
+        {"body", "group", "at", "measure", "duration_s"},
+        {"base", "floor", "target", "out"}},
+       {TomlKind::kTrials, "a list of trials", {"throw"}, {"order"}},
        {TomlKind::kSubject, "a subject", {"tips", "joint"}, {"tag"}},
        {TomlKind::kCharacter,
         "a character",

@@ -19,6 +19,8 @@ enum class TomlKind {
   kBoneMap,
   kMarkerMap,
   kEditRecipe,
+  kScene,
+  kTrials,
 };
 
 /// Returns the kind of a document by its first keys; its reader checks the rest.

@@ -38,6 +38,10 @@ FileKind kind_of_toml(TomlDocument& document) {
       return FileKind::kMarkerMap;
     case TomlKind::kEditRecipe:
       return FileKind::kEditRecipe;
+    case TomlKind::kScene:
+      return FileKind::kScene;
+    case TomlKind::kTrials:
+      return FileKind::kTrials;
     case TomlKind::kUnknown:
       break;
   }

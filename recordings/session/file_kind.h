@@ -21,6 +21,8 @@ enum class FileKind {
   kBoneMap,
   kMarkerMap,
   kEditRecipe,
+  kScene,
+  kTrials,
   // XML:
   kConstraints,
   kLenses,  ///< A calibration of another program, also in YAML.
