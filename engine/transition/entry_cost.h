@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/engine/blend_posture.h"
 #include "engine/clips/motion_base.h"
 #include "engine/clips/rig.h"
 #include "engine/transition/inertial_offset.h"
+
+#include "core/engine/blend_posture.h"
 
 namespace marey::engine {
 

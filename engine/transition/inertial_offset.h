@@ -28,8 +28,8 @@ struct PostureRates {
 
 /// A decaying difference between a posture and the one that is played, so that a cut
 /// looks continuous in value and velocity (Bollo 2016, "Inertialization"; the decay is
-/// (x + (v + x y) t) e^(-y t), y = 2 ln 2 / half-life: Holden 2023). Differences of nested
-/// cuts add up.
+/// (x + (v + x y) t) e^(-y t), y = 2 ln 2 / half-life: Holden 2023). Differences of
+/// nested cuts add up.
 class InertialOffset {
  public:
   /// No difference.
