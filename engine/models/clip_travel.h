@@ -25,6 +25,9 @@ struct ClipStep {
   double across_legs = 0.0;
   double length_legs = 0.0;  ///< Of the displacement.
   double turn_rad = 0.0;     ///< Change of the travel direction since the landing before.
+  /// Sums over the steps from the first of the cycle to this one.
+  double sum_along_legs = 0.0;
+  double sum_across_legs = 0.0;
 };
 
 /// Travel of a clip that loops. Its cycle is the whole loop: a drunk's single steps say
@@ -38,10 +41,11 @@ struct ClipTravel {
   double turn_rad = 0.0;        ///< Heading gained over a cycle.
   double speed_legs_s = 0.0;    ///< Mean: distance_legs / cycle_s.
   double mean_step_legs = 0.0;  ///< Of ClipStep::length_legs.
+  double mean_alone_s = 0.0;    ///< Time in which one foot stands alone, of a step.
   /// Whether the clip leads anywhere: the displacement over a cycle is more than 0.3 of
   /// the sum of its steps' lengths. Otherwise (a dance on the spot) it has no direction.
   bool travels = false;
-  std::vector<ClipStep> steps;  ///< Ascending by start; at least one.
+  std::vector<ClipStep> steps;  ///< Ascending by landing; at least one.
 };
 
 /// Computes the travel of a clip from its path and contacts. Linear in its frames.
