@@ -7,15 +7,16 @@
 
 #include "engine/clips/sample_clip.h"
 #include "engine/models/clip_travel.h"
-#include "engine/models/steer_plan.h"
-#include <glm/vec2.hpp>
+#include "engine/models/steer_moves.h"
+#include "engine/models/steer_settings.h"
+#include "engine/models/swing_curve.h"
 
 #include "core/base/result.h"
 #include "core/engine/motion_clip.h"
 
 namespace marey::engine {
 
-/// What the caller knows in a step. Places on the floor are (x, z) in the world. [m]
+/// State of a character in a step. Places on the floor are (x, z) in the world. [m]
 struct SteerInput {
   double time_s = 0.0;  ///< Ascends from step to step.
   double step_s = 1.0 / 60.0;
@@ -24,7 +25,7 @@ struct SteerInput {
   RootPlace root;
   double clip_s = 0.0;                    ///< Time in the clip; wrapped or not.
   double rate = 1.0;                      ///< Clip seconds per second: > 0.
-  std::array<glm::dvec2, 2> foot_xz_m{};  ///< Where the feet stand or swing; left, right.
+  std::array<glm::dvec2, 2> foot_xz_m{};  ///< Ankles; left, right.
   std::array<bool, 2> bears{};
   /// Time until a bearing foot lifts off, or another one lands. [s]
   std::array<double, 2> until_edge_s{};
@@ -61,14 +62,14 @@ struct SteerStep {
 /// that the last step ends on the goal: the turn rises as a quintic (C2). The last steps
 /// are longer or shorter. Travel direction: ClipTravel.
 ///
-/// Which quantities turn. The root's place and heading turn (turn_about()), therefore all
+/// Quantities that turn: the root's place and heading turn (turn_about()), therefore all
 /// that is sampled in the heading frame: hips, trunk, arms, the swinging foot and all
-/// later footprints. The standing foot does not: the place and the orientation that it
-/// had in the world when it landed are held by its support. Its leg takes the difference
-/// between hips and foot: SteerStep::twist_rad, at most SteerSettings::max_turn_rad over
-/// one stance (35 degrees; the hip takes it), and returns to the clip's posture when the
-/// foot swings again. The shift moves the root against the standing foot by at most 0.3
-/// of the step; the leg's extension takes it.
+/// later footprints. The standing foot does not turn: the place and the orientation that
+/// it had in the world when it landed are held by its support. Its leg takes the
+/// difference between hips and foot: SteerStep::twist_rad, at most
+/// SteerSettings::max_turn_rad over one stance (35 degrees; the hip takes it), and
+/// returns to the clip's posture when the foot swings again. The shift moves the root
+/// against the standing foot by at most 0.3 of the step; the leg's extension takes it.
 ///
 /// Every step is planned at its first moment and replanned when the goal changes, if at
 /// least SteerSettings::keep_s of the turn is left; otherwise the next step is the first
@@ -93,40 +94,39 @@ class SteerCourse {
   [[nodiscard]] const SteerSettings& settings() const { return settings_; }
 
  private:
-  /// Quintic of turn and shift over a swing, from the state at `start_s`.
-  struct Curve {
-    double start_s = 0.0;
-    double length_s = 0.0;  ///< 0: constant at its end.
-    std::array<double, 6> c{};
-    [[nodiscard]] double value(double time_s) const;
-    [[nodiscard]] double rate(double time_s) const;
-    [[nodiscard]] double acceleration(double time_s) const;
-  };
+  /// A step from the moment at which a foot stands alone to the next landing.
   struct Swing {
-    bool active = false;
-    bool turning = false;  ///< The standing foot still stands alone.
-    std::size_t stands = 0;
-    double turn_end_s = 0.0;
+    bool is_active = false;
+    std::size_t stands = 0;  ///< Foot: 0 left, 1 right.
+    double alone_end_s = 0.0;
     double land_s = 0.0;
-    Curve turn, shift_x, shift_z;
-    double scale = 1.0;
+    SwingCurve turn_rad;
+    SwingCurve shift_x_m, shift_z_m;  ///< In the frame at the start, which turns.
+    double turned_rad = 0.0;          ///< Until the last step.
+    glm::dvec2 shifted_m{0.0};
     bool is_last = false;
   };
 
-  void follow_feet(const SteerInput& now);
-  void plan_swing(const SteerInput& now);
-  void land(const SteerInput& now);
+  void note_landings(const SteerInput& now);
+  void begin_swing(const SteerInput& now);
+  void move_along_swing(const SteerInput& now, SteerStep& out);
+  void plan_swing(const SteerInput& now, const RootPlace& root);
+  void keep_up_with_edges(const SteerInput& now);
+  [[nodiscard]] bool has_arrived(const SteerInput& now) const;
+  [[nodiscard]] SteerScene scene_of(const SteerInput& now) const;
 
   const MotionClip* clip_ = nullptr;
   const ClipTravel* travel_ = nullptr;
   SteerSettings settings_;
-  bool has_goal_ = false;
-  bool goal_is_new_ = false;
-  glm::dvec2 goal_xz_m_{0.0};
-  double aimed_s_ = -1.0;
   SteerState state_ = SteerState::kUnderWay;
+  bool has_goal_ = false;
+  bool is_goal_new_ = false;
+  glm::dvec2 goal_xz_m_{0.0};
+  double end_s_ = 0.0;  ///< Time at which the course gives up.
   Swing swing_;
+  bool has_landed_ = false;  ///< In this step.
   int steps_left_ = 0;
+  double scale_ = 1.0;
   std::array<bool, 2> bore_{};
   std::array<double, 2> twist_rad_{};
 };

@@ -120,7 +120,10 @@ SteerStrategy best_strategy(const SteerScene& scene,
                             const SteerMoment& moment,
                             SteerForecast& predicted) {
   predicted = forecast(scene, moment, {});
-  if (predicted.arrives || !scene.travel->travels) return {};
+  if (predicted.arrives || !scene.travel->travels ||
+      predicted.duration_s > scene.settings->max_duration_s) {
+    return {};
+  }
   SteerStrategy best;
   const auto consider = [&](const SteerStrategy& strategy) {
     const SteerForecast other = forecast(scene, moment, strategy);
