@@ -15,7 +15,7 @@ constexpr double kFullTurn_rad = 2.0 * 3.14159265358979323846;
 // Phases below it are noise of the contacts. [s]
 constexpr double kMinPhase_s = 0.04;
 // See ClipTravel::travels.
-constexpr double kMinTravelShare = 0.3;
+constexpr double kMinTravelShare = 0.15;
 
 bool stands_alone(const Phase& phase) {
   return phase.feet == PhaseClass::kLeft || phase.feet == PhaseClass::kRight;
@@ -139,6 +139,11 @@ Result<ClipTravel> travel_of_clip(const MotionClip& clip) {
   }
   const auto count = static_cast<double>(travel.steps.size());
   travel.mean_step_legs = sum_of_lengths(travel) / count;
+  const double mean_along_legs = travel.steps.back().sum_along_legs / count;
+  travel.is_even =
+      std::all_of(travel.steps.begin(), travel.steps.end(), [&](const ClipStep& step) {
+        return std::abs(step.along_legs - mean_along_legs) <= 0.5 * mean_along_legs;
+      });
   for (const ClipStep& step : travel.steps) {
     travel.mean_alone_s += (step.alone_end_s - step.alone_start_s) / count;
   }

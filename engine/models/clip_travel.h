@@ -42,9 +42,12 @@ struct ClipTravel {
   double speed_legs_s = 0.0;    ///< Mean: distance_legs / cycle_s.
   double mean_step_legs = 0.0;  ///< Of ClipStep::length_legs.
   double mean_alone_s = 0.0;    ///< Time in which one foot stands alone, of a step.
-  /// Whether the clip leads anywhere: the displacement over a cycle is more than 0.3 of
-  /// the sum of its steps' lengths. Otherwise (a dance on the spot) it has no direction.
+  /// Whether the clip leads anywhere: the displacement over a cycle is more than 0.15
+  /// of the sum of its steps' lengths. Otherwise (a dance on the spot) it has no
+  /// direction.
   bool travels = false;
+  /// Every step leads along the travel by 0.5 to 1.5 of the mean.
+  bool is_even = false;
   std::vector<ClipStep> steps;  ///< Ascending by landing; at least one.
 };
 

@@ -75,7 +75,7 @@ SteerStep SteerCourse::step(const SteerInput& now) {
   const bool is_new = is_goal_new_ && has_goal_;
   if (is_new) end_s_ = now.time_s + settings_.max_duration_s;
   if (has_goal_ && state_ == SteerState::kUnderWay) {
-    if ((has_landed_ || (is_new && !swing_.is_active)) && has_arrived(now)) {
+    if ((has_landed_ || (is_new && !swing_.is_active)) && has_arrived(now, is_new)) {
       state_ = SteerState::kArrived;
     } else if (now.time_s > end_s_ && !swing_.is_active) {
       state_ = SteerState::kOutOfTime;
@@ -197,7 +197,10 @@ void SteerCourse::plan_swing(const SteerInput& now, const RootPlace& root) {
   moment.turn_rad = {range.low - swing_.turned_rad, range.high - swing_.turned_rad};
   SteerForecast predicted;
   const SteerStrategy strategy = best_strategy(scene, moment, predicted);
-  const SteerMove move = choose_move(scene, moment, strategy);
+  SteerMove move = choose_move(scene, moment, strategy);
+  if (predicted.arrives && predicted.steps == 1 && move.missing_m <= kNear_m) {
+    move.is_last = true;
+  }
   swing_.turn_rad.bend(now.time_s, swing_.alone_end_s, swing_.turned_rad + move.turn_rad);
   const glm::dvec2 shift_m = turned(move.shift_xz_m, -swing_.turned_rad);
   swing_.shift_x_m.bend(now.time_s, swing_.land_s, shift_m.x);
@@ -209,15 +212,16 @@ void SteerCourse::plan_swing(const SteerInput& now, const RootPlace& root) {
   scale_ = step_m > 0.0 ? 1.0 + glm::dot(move.shift_xz_m, along) / step_m : 1.0;
 }
 
-bool SteerCourse::has_arrived(const SteerInput& now) const {
+bool SteerCourse::has_arrived(const SteerInput& now, bool not_begun) const {
   const SteerScene scene = scene_of(now);
   const NextLanding landing = next_landing(*travel_, now.clip_s);
   const SteerMoment moment =
       moment_of(scene, now.root, now.clip_s, landing.clip_s, landing.step);
   const glm::dvec2 root_xz_m{now.root.x_m, now.root.z_m};
-  const double half_m = 0.5 * travel_->mean_step_legs * now.leg_length_m;
-  if (swing_.is_last && glm::length(scene.goal_xz_m - root_xz_m) <= half_m) return true;
-  return is_arrival(scene, root_xz_m, moment);
+  if (swing_.is_last && glm::length(scene.goal_xz_m - root_xz_m) <= kNear_m + 0.02) {
+    return true;
+  }
+  return is_arrival(scene, root_xz_m, moment, not_begun);
 }
 
 RootPlace turn_about(const RootPlace& root, glm::dvec2 pivot_xz_m, double turn_rad) {

@@ -26,8 +26,10 @@ SteerMoment after(const SteerScene& scene,
   next.pivot_xz_m = move.end_xz_m + 0.5 * by_m;
   next.end_xz_m = move.end_xz_m + by_m;
   next.course_rad = course_rad + step.turn_rad;
-  const double limit_rad = max_turn_of_step(
-      *scene.settings, (step.alone_end_s - step.alone_start_s) / scene.rate);
+  const double limit_rad =
+      scene.turn_share *
+      max_turn_of_step(*scene.settings,
+                       (step.alone_end_s - step.alone_start_s) / scene.rate);
   next.turn_rad = {-limit_rad, limit_rad};
   double clip_s = step.land_s - travel.steps[moment.step].land_s;
   if (next.step <= moment.step) clip_s += travel.cycle_s;
@@ -116,15 +118,18 @@ SteerForecast forecast(const SteerScene& scene,
   return out;
 }
 
-SteerStrategy best_strategy(const SteerScene& scene,
-                            const SteerMoment& moment,
-                            SteerForecast& predicted) {
+namespace {
+
+// The strategy that arrives first.
+SteerStrategy first_to_arrive(const SteerScene& scene,
+                              const SteerMoment& moment,
+                              SteerForecast& predicted) {
   predicted = forecast(scene, moment, {});
+  SteerStrategy best;
   if (predicted.arrives || !scene.travel->travels ||
       predicted.duration_s > scene.settings->max_duration_s) {
-    return {};
+    return best;
   }
-  SteerStrategy best;
   const auto consider = [&](const SteerStrategy& strategy) {
     const SteerForecast other = forecast(scene, moment, strategy);
     const bool is_better =
@@ -142,6 +147,24 @@ SteerStrategy best_strategy(const SteerScene& scene,
     }
   }
   return best;
+}
+
+}  // namespace
+
+SteerStrategy best_strategy(const SteerScene& scene,
+                            const SteerMoment& moment,
+                            SteerForecast& predicted) {
+  SteerScene careful = scene;
+  careful.turn_share = 0.93;
+  SteerMoment first = moment;
+  first.turn_rad.low *= careful.turn_share;
+  first.turn_rad.high *= careful.turn_share;
+  const SteerStrategy best = first_to_arrive(careful, first, predicted);
+  const bool is_too_far = predicted.duration_s > scene.settings->max_duration_s;
+  if (predicted.arrives || is_too_far || !scene.travel->travels) return best;
+  SteerScene near = scene;
+  near.arrival_m = kNear_m;
+  return first_to_arrive(near, moment, predicted);
 }
 
 }  // namespace marey::engine

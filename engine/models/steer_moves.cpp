@@ -16,9 +16,13 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kBehind_rad = kPi - 0.1;
 // Turns that remain below it are left to the next steps.
 constexpr double kAligned_rad = 0.03;
+// Landings of a clip with uneven steps that are tried around the likely one.
+constexpr int kUnevenSteps = 12;
 // A root that lands within this share of a step has arrived.
 constexpr double kArrivalShare = 0.12;
 constexpr double kArrival_m = 0.03;
+// A clip that does not travel arrives within it, or within half a step.
+constexpr double kDriftArrival_m = 0.15;
 
 double heading_of(glm::dvec2 xz) {
   return std::atan2(xz.x, xz.y);
@@ -33,6 +37,11 @@ const ClipStep& step_at(const SteerScene& scene, std::size_t step) {
 }
 
 double arrival_m(const SteerScene& scene) {
+  if (scene.arrival_m > 0.0) return scene.arrival_m;
+  if (!scene.travel->travels) {
+    return std::min(kDriftArrival_m,
+                    0.5 * scene.travel->mean_step_legs * scene.leg_length_m);
+  }
   return std::max(kArrival_m,
                   kArrivalShare * scene.travel->mean_step_legs * scene.leg_length_m);
 }
@@ -50,13 +59,21 @@ class EndingSearch {
   EndingSearch(const SteerScene& scene, const SteerMoment& moment)
       : scene_(scene),
         moment_(moment),
+        along_(turned({0.0, 1.0}, moment.course_rad)),
+        across_(along_.y, -along_.x),
         goal_m_(glm::length(scene.goal_xz_m - moment.pivot_xz_m)) {}
 
   // The ending whose steps change least.
   [[nodiscard]] Ending best() const {
     const double first_m = at(0).longer_m;
-    auto further = static_cast<int>(
+    const auto estimate = static_cast<int>(
         std::clamp(std::round(first_m / mean_along_m(scene_)), 0.0, 1e6));
+    return scene_.travel->is_even ? nearest(estimate) : best_around(estimate);
+  }
+
+ private:
+  // For even steps, which change less the closer they end.
+  [[nodiscard]] Ending nearest(int further) const {
     Ending ending = at(further);
     for (const int by : {-1, 1}) {
       while (further + by >= 0) {
@@ -69,13 +86,22 @@ class EndingSearch {
     return ending;
   }
 
- private:
+  [[nodiscard]] Ending best_around(int estimate) const {
+    const int by = std::min(static_cast<int>(scene_.travel->steps.size()), kUnevenSteps);
+    Ending best = at(std::max(estimate - by, 0));
+    for (int further = best.further + 1; further <= estimate + by; ++further) {
+      const Ending other = at(further);
+      if (change(other) < change(best)) best = other;
+    }
+    return best;
+  }
+
   [[nodiscard]] Ending at(int further) const {
     const glm::dvec2 sum_m =
         scene_.leg_length_m * sum_of_steps(*scene_.travel, moment_.step, further);
     Ending out;
     out.further = further;
-    out.end_xz_m = moment_.end_xz_m + turned(sum_m, moment_.course_rad);
+    out.end_xz_m = moment_.end_xz_m + sum_m.x * across_ + sum_m.y * along_;
     out.along_m =
         sum_m.y + scene_.leg_length_m * step_at(scene_, moment_.step).along_legs;
     out.longer_m = goal_m_ - glm::length(out.end_xz_m - moment_.pivot_xz_m);
@@ -89,6 +115,8 @@ class EndingSearch {
 
   const SteerScene& scene_;
   const SteerMoment& moment_;
+  glm::dvec2 along_;
+  glm::dvec2 across_;
   double goal_m_ = 0.0;
 };
 
@@ -294,10 +322,12 @@ SteerMove choose_move(const SteerScene& scene,
 
 bool is_arrival(const SteerScene& scene,
                 glm::dvec2 root_xz_m,
-                const SteerMoment& moment) {
+                const SteerMoment& moment,
+                bool not_begun) {
   const double distance_m = glm::length(scene.goal_xz_m - root_xz_m);
+  const double half_m = 0.5 * scene.travel->mean_step_legs * scene.leg_length_m;
   if (distance_m <= kArrival_m) return true;
-  if (distance_m > 0.5 * scene.travel->mean_step_legs * scene.leg_length_m) return false;
+  if (distance_m > half_m || (distance_m > kNear_m && !not_begun)) return false;
   // A step that gains less than a fifth is not worth taking.
   return choose_move(scene, moment, {}).missing_m > 0.8 * distance_m;
 }

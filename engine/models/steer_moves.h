@@ -20,6 +20,9 @@ namespace marey::engine {
 /// Number of last steps that share a difference in length, at most.
 inline constexpr int kScaledSteps = 5;
 
+/// A course that misses its goal by less does not turn back. [m]
+inline constexpr double kNear_m = 0.17;
+
 /// Everything that stays the same over a course.
 struct SteerScene {
   const MotionClip* clip = nullptr;
@@ -28,6 +31,10 @@ struct SteerScene {
   double leg_length_m = 1.0;
   double rate = 1.0;  ///< Clip seconds per second.
   glm::dvec2 goal_xz_m{0.0};
+  /// Share of the permitted turn that predictions use: the rest corrects their errors.
+  double turn_share = 1.0;
+  /// A last step that ends within this distance ends at the goal; 0: the usual one. [m]
+  double arrival_m = 0.0;
 };
 
 /// A step that is to be planned.
@@ -93,10 +100,12 @@ struct NextLanding {
                                     const SteerMoment& moment,
                                     const SteerStrategy& strategy);
 
-/// Whether a root at this place, at a landing, has arrived: within half a step of the
-/// goal, and the next step (`moment`) would not lead closer.
+/// Whether a root at this place has arrived: within kNear_m of the goal, or, if the
+/// course has `not_begun`, within half a step; and the next step (`moment`) would not
+/// lead closer.
 [[nodiscard]] bool is_arrival(const SteerScene& scene,
                               glm::dvec2 root_xz_m,
-                              const SteerMoment& moment);
+                              const SteerMoment& moment,
+                              bool not_begun);
 
 }  // namespace marey::engine

@@ -48,7 +48,7 @@ Result<SteerAnswer> ask_steer(const MotionClip& clip,
       moment_of(scene, question.root, question.clip_s, landing.clip_s, landing.step);
   const glm::dvec2 root_xz_m{question.root.x_m, question.root.z_m};
   SteerAnswer answer;
-  if (is_arrival(scene, root_xz_m, moment)) {
+  if (is_arrival(scene, root_xz_m, moment, true)) {
     answer.reachable = true;
     answer.missing_m = glm::length(question.goal_xz_m - root_xz_m);
     return answer;
