@@ -165,7 +165,8 @@ void SteerCourse::move_along_swing(const SteerInput& now, SteerStep& out) {
 }
 
 SteerScene SteerCourse::scene_of(const SteerInput& now) const {
-  SteerScene scene{clip_, travel_, &settings_, now.leg_length_m, now.rate, goal_xz_m_};
+  SteerScene scene{
+      clip_, travel_, &settings_, now.leg_length_m, now.rate, goal_xz_m_, now.step_s};
   if (settings_.stop_m > 0.0) {
     const glm::dvec2 way = goal_xz_m_ - glm::dvec2{now.root.x_m, now.root.z_m};
     const double length_m = glm::length(way);

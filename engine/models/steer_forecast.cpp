@@ -27,9 +27,7 @@ SteerMoment after(const SteerScene& scene,
   next.end_xz_m = move.end_xz_m + by_m;
   next.course_rad = course_rad + step.turn_rad;
   const double limit_rad =
-      scene.turn_share *
-      max_turn_of_step(*scene.settings,
-                       (step.alone_end_s - step.alone_start_s) / scene.rate);
+      scene.turn_share * max_turn_of(scene, step.alone_end_s - step.alone_start_s);
   next.turn_rad = {-limit_rad, limit_rad};
   double clip_s = step.land_s - travel.steps[moment.step].land_s;
   if (next.step <= moment.step) clip_s += travel.cycle_s;
@@ -59,8 +57,7 @@ void skip_straight_steps(const SteerScene& scene,
 
 // Radius of the tightest circle of whole steps.
 double turn_radius_m(const SteerScene& scene, double scale) {
-  const double turn_rad =
-      max_turn_of_step(*scene.settings, scene.travel->mean_alone_s / scene.rate);
+  const double turn_rad = max_turn_of(scene, scene.travel->mean_alone_s);
   return 0.5 * scale * mean_along_m(scene) / std::max(std::sin(0.5 * turn_rad), 1e-6);
 }
 
@@ -85,11 +82,11 @@ SteerForecast forecast(const SteerScene& scene,
                        const SteerMoment& start,
                        const SteerStrategy& strategy) {
   // A course that has turned around once and has not found the goal goes on in circles.
-  const double limit_rad =
-      max_turn_of_step(*scene.settings, scene.travel->mean_alone_s / scene.rate);
-  const int max_steps = scene.travel->travels
-                            ? 10 + static_cast<int>(1.3 * kFullTurn_rad / limit_rad)
-                            : 200;
+  const double limit_rad = max_turn_of(scene, scene.travel->mean_alone_s);
+  const int max_steps =
+      scene.travel->travels
+          ? 10 + static_cast<int>(1.3 * kFullTurn_rad / std::max(limit_rad, 0.05))
+          : 200;
   SteerMoment moment = start;
   SteerStrategy rest = strategy;
   SteerForecast out;

@@ -208,6 +208,12 @@ double max_turn_of_step(const SteerSettings& settings, double turn_s) {
                   settings.max_turn_rad_s * std::max(turn_s, 0.0) / kPeak);
 }
 
+double max_turn_of(const SteerScene& scene, double alone_clip_s) {
+  // It is seen up to a step late, and the turn ends a step early.
+  return max_turn_of_step(*scene.settings,
+                          alone_clip_s / scene.rate - 1.5 * scene.step_s);
+}
+
 glm::dvec2 turned(glm::dvec2 xz_m, double angle_rad) {
   const double c = std::cos(angle_rad);
   const double s = std::sin(angle_rad);
@@ -277,8 +283,8 @@ SteerMoment moment_of(const SteerScene& scene,
       out.end_xz_m -
       0.5 * scene.leg_length_m * turned({s.across_legs, s.along_legs}, out.course_rad);
   const double left_s = s.alone_end_s - s.land_s + land_clip_s - clip_s;
-  const double limit_rad = max_turn_of_step(
-      *scene.settings, std::min(left_s, s.alone_end_s - s.alone_start_s) / scene.rate);
+  const double limit_rad =
+      max_turn_of(scene, std::min(left_s, s.alone_end_s - s.alone_start_s));
   out.turn_rad = {-limit_rad, limit_rad};
   out.land_s = (land_clip_s - clip_s) / scene.rate;
   return out;

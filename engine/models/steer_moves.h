@@ -31,6 +31,7 @@ struct SteerScene {
   double leg_length_m = 1.0;
   double rate = 1.0;  ///< Clip seconds per second.
   glm::dvec2 goal_xz_m{0.0};
+  double step_s = 1.0 / 60.0;  ///< Of the engine.
   /// Share of the permitted turn that predictions use: the rest corrects their errors.
   double turn_share = 1.0;
   /// A last step that ends within this distance ends at the goal; 0: the usual one. [m]
@@ -65,6 +66,9 @@ struct SteerStrategy {
   int straight_steps = 0;  ///< Walk on first.
   bool is_tight = false;   ///< Turn with the shortest steps.
 };
+
+/// Maximum turn of a step of the clip, played in steps of the engine.
+[[nodiscard]] double max_turn_of(const SteerScene& scene, double alone_clip_s);
 
 /// Returns the vector turned by an angle about Y.
 [[nodiscard]] glm::dvec2 turned(glm::dvec2 xz_m, double angle_rad);
