@@ -22,7 +22,7 @@ struct SteerInput {
   double step_s = 1.0 / 60.0;
   /// The root of this step: moved by the clip since the last step (whose root had been
   /// steered), not yet steered itself.
-  RootPlace root;
+  RootPlace root{};
   double clip_s = 0.0;                    ///< Time in the clip; wrapped or not.
   double rate = 1.0;                      ///< Clip seconds per second: > 0.
   std::array<glm::dvec2, 2> foot_xz_m{};  ///< Ankles; left, right.

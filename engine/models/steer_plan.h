@@ -14,7 +14,7 @@ namespace marey::engine {
 
 /// Question to ask_steer(): the state from which the course would start.
 struct SteerQuestion {
-  RootPlace root;
+  RootPlace root{};
   double clip_s = 0.0;
   double rate = 1.0;  ///< Clip seconds per second: > 0.
   double leg_length_m = 1.0;
