@@ -142,6 +142,9 @@ void SteerCourse::move_along_swing(const SteerInput& now, SteerStep& out) {
     out.turn_rad = turned_rad - swing_.turned_rad;
     swing_.turned_rad = turned_rad;
     twist_rad_[swing_.stands] += out.turn_rad;
+  } else if (swing_.turn_rad.target() != swing_.turned_rad) {
+    // The foot has left the floor early: the rest of its turn is left to the next one.
+    swing_.turn_rad.hold(swing_.turned_rad);
   }
   const glm::dvec2 shifted_m{swing_.shift_x_m.at(now.time_s).value,
                              swing_.shift_z_m.at(now.time_s).value};
@@ -157,11 +160,24 @@ void SteerCourse::move_along_swing(const SteerInput& now, SteerStep& out) {
       curve.bend(now.time_s, end_s_now, curve.target());
     }
   };
-  if (swing_.alone_end_s < end_s) shorten(swing_.turn_rad, swing_.alone_end_s);
+  if (swing_.alone_end_s < end_s) {
+    shorten_turn(now);
+  }
   if (swing_.land_s < land_s) {
     shorten(swing_.shift_x_m, swing_.land_s);
     shorten(swing_.shift_z_m, swing_.land_s);
   }
+}
+
+void SteerCourse::shorten_turn(const SteerInput& now) {
+  const double left_s = swing_.alone_end_s - now.time_s;
+  SwingCurve& curve = swing_.turn_rad;
+  if (left_s < 1e-4 || curve.end_s() <= swing_.alone_end_s + 1e-4) return;
+  const CurveRange range = permitted_targets(
+      curve.at(now.time_s), left_s, settings_.max_turn_rad, settings_.max_turn_rad_s);
+  if (range.low > range.high) return;
+  const double target_rad = std::clamp(curve.target(), range.low, range.high);
+  curve.bend(now.time_s, swing_.alone_end_s, target_rad);
 }
 
 SteerScene SteerCourse::scene_of(const SteerInput& now) const {

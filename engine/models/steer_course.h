@@ -112,6 +112,7 @@ class SteerCourse {
   void move_along_swing(const SteerInput& now, SteerStep& out);
   void plan_swing(const SteerInput& now, const RootPlace& root);
   void keep_up_with_edges(const SteerInput& now);
+  void shorten_turn(const SteerInput& now);
   [[nodiscard]] bool has_arrived(const SteerInput& now, bool not_begun) const;
   [[nodiscard]] SteerScene scene_of(const SteerInput& now) const;
 

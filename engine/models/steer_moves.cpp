@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <glm/geometric.hpp>
 
@@ -199,6 +200,21 @@ double turn_to_goal(const SteerScene& scene,
   return left_swings ? std::abs(turn_rad) : -std::abs(turn_rad);
 }
 
+// The turn to a goal for which one step is by far not enough, without a search of the
+// landing; nullopt: the goal is close or ahead.
+std::optional<double> far_turn(const SteerScene& scene, const SteerMoment& moment) {
+  constexpr double kMore_rad = 0.5;
+  if (!scene.travel->is_even) return std::nullopt;
+  const glm::dvec2 goal = scene.goal_xz_m - moment.pivot_xz_m;
+  const double near_m = 3.0 * mean_along_m(scene);
+  if (glm::dot(goal, goal) < near_m * near_m) return std::nullopt;
+  const double turn_rad = wrapped(heading_of(goal) - moment.course_rad);
+  const bool is_far = std::abs(turn_rad) < kBehind_rad - 0.2 &&
+                      (turn_rad > moment.turn_rad.high + kMore_rad ||
+                       turn_rad < moment.turn_rad.low - kMore_rad);
+  return is_far ? std::optional(turn_rad) : std::nullopt;
+}
+
 }  // namespace
 
 double max_turn_of_step(const SteerSettings& settings, double turn_s) {
@@ -304,8 +320,15 @@ SteerMove choose_move(const SteerScene& scene,
     finish(scene, moment, move);
     return move;
   }
-  const Ending ending = EndingSearch(scene, moment).best();
-  const double wanted_rad = turn_to_goal(scene, moment, ending);
+  Ending ending;
+  double wanted_rad = 0.0;
+  if (const auto rough_rad = far_turn(scene, moment)) {
+    wanted_rad = *rough_rad;
+    ending.further = kScaledSteps;
+  } else {
+    ending = EndingSearch(scene, moment).best();
+    wanted_rad = turn_to_goal(scene, moment, ending);
+  }
   move.turn_rad = permitted(wanted_rad);
   if (ending.further == 0) {
     const SteerMove last = best_last_move(scene, moment, move.turn_rad);
