@@ -98,6 +98,11 @@ void measure_steps(const MotionClip& clip, ClipTravel& travel) {
     const RootPlace by = relative(from, to);
     step.along_legs = by.z_m;
     step.across_legs = by.x_m;
+    // Half of it while the foot stands; a runner then still flies.
+    step.passes_at =
+        0.5 *
+        std::clamp(
+            (step.alone_end_s - from_s) / std::max(step.land_s - from_s, 1e-6), 0.0, 1.0);
     step.length_legs = std::hypot(by.x_m, by.z_m);
     step.turn_rad = std::remainder(by.heading_rad, kFullTurn_rad);
     step.sum_along_legs = along += by.z_m;

@@ -24,7 +24,9 @@ struct ClipStep {
   double along_legs = 0.0;
   double across_legs = 0.0;
   double length_legs = 0.0;  ///< Of the displacement.
-  double turn_rad = 0.0;     ///< Change of the travel direction since the landing before.
+  /// Share of the displacement at which the hips pass the standing foot, about.
+  double passes_at = 0.5;
+  double turn_rad = 0.0;  ///< Change of the travel direction since the landing before.
   /// Sums over the steps from the first of the cycle to this one.
   double sum_along_legs = 0.0;
   double sum_across_legs = 0.0;

@@ -23,7 +23,7 @@ SteerMoment after(const SteerScene& scene,
   const double course_rad = moment.course_rad + move.turn_rad;
   const glm::dvec2 by_m =
       scene.leg_length_m * turned({step.across_legs, step.along_legs}, course_rad);
-  next.pivot_xz_m = move.end_xz_m + 0.5 * by_m;
+  next.pivot_xz_m = move.end_xz_m + step.passes_at * by_m;
   next.end_xz_m = move.end_xz_m + by_m;
   next.course_rad = course_rad + step.turn_rad;
   const double limit_rad =
@@ -90,16 +90,12 @@ SteerForecast forecast(const SteerScene& scene,
   SteerMoment moment = start;
   SteerStrategy rest = strategy;
   SteerForecast out;
-  const glm::dvec2 side_m =
-      scene.leg_length_m * glm::dvec2{scene.travel->steps[start.step].across_legs,
-                                      scene.travel->steps[start.step].along_legs};
-  out.distance_m = glm::length(side_m);
   for (int i = 0; i < max_steps; ++i) {
     SteerMove move = choose_move(scene, moment, rest);
     ++out.steps;
     out.duration_s += moment.land_s;
     out.missing_m = move.missing_m;
-    if (i > 0) out.distance_m += glm::length(moment.end_xz_m - moment.pivot_xz_m) * 2.0;
+    out.distance_m += scene.leg_length_m * scene.travel->steps[moment.step].length_legs;
     if (move.is_last) {
       out.arrives = true;
       return out;

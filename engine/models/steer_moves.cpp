@@ -295,9 +295,9 @@ SteerMoment moment_of(const SteerScene& scene,
   out.course_rad = end.heading_rad + travel_direction(*scene.clip, travel, land_clip_s);
   out.step = step;
   const ClipStep& s = travel.steps[step];
+  const double ahead_m = (1.0 - s.passes_at) * scene.leg_length_m;
   out.pivot_xz_m =
-      out.end_xz_m -
-      0.5 * scene.leg_length_m * turned({s.across_legs, s.along_legs}, out.course_rad);
+      out.end_xz_m - ahead_m * turned({s.across_legs, s.along_legs}, out.course_rad);
   const double left_s = s.alone_end_s - s.land_s + land_clip_s - clip_s;
   const double limit_rad =
       max_turn_of(scene, std::min(left_s, s.alone_end_s - s.alone_start_s));
