@@ -26,8 +26,8 @@ struct QuinticLeg {
   [[nodiscard]] double end_s() const { return start_s + length_s; }
   /// Returns the motion at a time; beyond the ends the polynomial continues.
   [[nodiscard]] Motion3 at(double time_s) const;
-  /// Returns the maximum of the acceleration's length, at nine instants: at most 3 %
-  /// below the exact maximum.
+  /// Returns the maximum of the acceleration's length, at 17 instants: 1 % below the
+  /// exact maximum between two places at rest.
   [[nodiscard]] double max_acceleration() const;
 };
 

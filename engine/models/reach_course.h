@@ -6,53 +6,10 @@
 
 #include "engine/models/hand_motion.h"
 #include "engine/models/quintic_leg.h"
-#include <glm/gtc/quaternion.hpp>
-#include <glm/vec3.hpp>
-
-#include "core/base/result.h"
+#include "engine/models/reach_plan.h"
+#include "engine/models/reach_target.h"
 
 namespace marey::engine {
-
-/// Target of a reach at an instant. Everything may change from step to step.
-struct ReachTarget {
-  glm::dvec3 p_in_world{0.0};  ///< For the point of the hand that reaches (the palm).
-  glm::dvec3 velocity_m_s{0.0};
-  /// Direction in which the hand moves when it arrives, relative to the target; not zero,
-  /// any length. nullopt: that of the clip's hand, if `speed_m_s` asks for a speed.
-  std::optional<glm::dvec3> approach;
-  /// Speed of the hand relative to the target when it arrives. nullopt: 0, or
-  /// ReachOptions::approach_speed_m_s with an approach direction.
-  std::optional<double> speed_m_s;
-  /// Rotation of the hand from the T-pose when it arrives. nullopt: that of the clip.
-  std::optional<glm::dquat> world_from_hand;
-  glm::dvec3 turn_rad_s{0.0};  ///< Angular velocity of that rotation, in world axes.
-};
-
-/// Refuses a target that cannot be asked for. Errors (bad input, naming the value): a
-/// number that is not finite, a zero approach direction or rotation, a negative speed.
-[[nodiscard]] Status check_target(const ReachTarget& target);
-
-/// The points that a hand can reach: a ball. ask_reach() computes its radius.
-struct ReachBall {
-  glm::dvec3 centre_in_world{0.0};
-  double radius_m = 0.0;
-};
-
-enum class AfterArrival {
-  kHold,    ///< The hand moves with the target, until ReachCourse::release().
-  kReturn,  ///< The displacement fades out; the clip's own hand returns.
-};
-
-struct ReachOptions {
-  AfterArrival after = AfterArrival::kHold;
-  /// Arrival is put off until the displacement can do with this. [m/s^2]
-  double max_acceleration_m_s2 = 25.0;
-  double max_turn_acceleration_rad_s2 = 150.0;
-  double approach_speed_m_s = 0.1;  ///< See ReachTarget::speed_m_s.
-  double trust_s = 0.3;             ///< A target's velocity counts for about this time.
-  double settle_s = 0.2;  ///< Minimum time in which the hand stops at the target.
-  double return_s = 0.4;  ///< Minimum time in which the displacement fades out.
-};
 
 /// Input of one step. "The clip's hand" is the reaching point of the hand in the posture
 /// that is played, on this body, without the reach. Its place must be continuous with two
@@ -85,7 +42,7 @@ struct ReachOutput {
   /// not, the hand arrives later than the clip.
   double arrive_s = 0.0;
   double rate = 1.0;         ///< Mean rate of the clip until then, at least 0.5.
-  bool has_arrived = false;  ///< The hand has been within 1 mm of its target.
+  bool has_arrived = false;  ///< The hand has been within 3 mm of its target.
   bool target_lost = false;
   double missing_m = 0.0;  ///< Distance of the target from ReachInput::within.
 };
@@ -105,7 +62,7 @@ class ReachCourse {
              const std::optional<HandMotion>& shown = std::nullopt);
 
   /// Computes the next step. A target with numbers that are not finite is lost: the last
-  /// one stays, and its velocity decays. Cost: about a microsecond.
+  /// one stays, and its velocity decays. Cost: some microseconds.
   /// Precondition: started; times ascend by at most a few steps.
   ReachOutput step(const ReachInput& input);
 
@@ -113,26 +70,29 @@ class ReachCourse {
   void release();
 
  private:
-  [[nodiscard]] ReachTarget current_target(const ReachInput& input, ReachOutput& output);
-  void reach(const ReachInput& input, const ReachTarget& target, ReachOutput& output);
-  void arrive(const ReachInput& input, const ReachTarget& target);
-  void hold(const ReachInput& input, const ReachTarget& target, ReachOutput& output);
-  void plan_return(double time_s, const Motion3& displacement, const Motion3& turn);
+  // The hand whose displacement is the state: the clip's, or the target while holding.
+  [[nodiscard]] HandMotion held_base(const ReachInput& input) const;
+  void follow_target(const ReachInput& input, ReachOutput& output);
+  void reach(const ReachInput& input, ReachOutput& output);
+  void arrive(const ReachInput& input, double event_s);
+  void hold(const ReachInput& input, ReachOutput& output);
+  void absorb_jump(const ReachInput& input, const HandMotion& base);
+  void begin_return(double time_s, const Motion3& moved_m, const Motion3& turned_rad);
+  void come_back(const ReachInput& input, ReachOutput& output);
+  void advance_to(double time_s);
 
   ReachOptions options_;
   ReachPhase phase_ = ReachPhase::kDone;
   double time_s_ = 0.0;
-  // Displacement and turn: of the clip's hand, or of the target while holding.
-  Motion3 moved_;
-  Motion3 turned_;
-  QuinticLeg move_leg_;
-  QuinticLeg turn_leg_;
+  Motion3 moved_m_;  // At time_s_.
+  Motion3 turned_rad_;
+  ArrivalPlan plan_;
   bool has_plan_ = false;
   bool has_arrived_ = false;
-  bool has_target_ = false;
   bool released_ = false;
-  double lost_s_ = 0.0;
-  ReachTarget target_;  // At time_s_.
+  std::optional<ReachTarget> given_;  // The last usable target; moved on while lost.
+  ReachTarget target_;                // Within reach, at the time of the step.
+  ReachTarget last_target_;           // At time_s_.
 };
 
 }  // namespace marey::engine
