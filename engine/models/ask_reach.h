@@ -20,7 +20,7 @@ struct ReachLengths {
 };
 
 /// Returns the lengths for the left (0) or right (1) hand. The palm is the middle between
-/// wrist and fingertip if `skeleton` has a tip, else 0.4 of the forearm's third.
+/// wrist and fingertip if `skeleton` has a tip, else 0.35 forearms from the wrist.
 /// Precondition: `map` was made from `skeleton` and has this arm.
 [[nodiscard]] ReachLengths reach_lengths(const Skeleton& skeleton,
                                          const retarget::BodyMap& map,
@@ -39,7 +39,6 @@ struct ReachShare {
 struct ReachQuestion {
   glm::dvec3 hips_in_world{0.0};
   glm::dvec3 shoulder_in_world{0.0};
-  HandMotion clip_now;         ///< As ReachInput.
   HandMotion clip_at_arrival;  ///< As ReachInput.
   double clip_remaining_s = 0.0;
   ReachTarget target;
@@ -61,7 +60,7 @@ struct ReachFeasibility {
                                          const ReachOptions& options = {});
 
 /// Returns a ball about the shoulder for ReachInput::within: the arm alone plus the same
-/// shares in the direction of `towards_in_world`.
+/// shares towards the place `towards_in_world`.
 [[nodiscard]] ReachBall reach_ball(const ReachLengths& lengths,
                                    const ReachShare& share,
                                    const glm::dvec3& hips_in_world,

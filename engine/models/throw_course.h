@@ -114,7 +114,6 @@ class ThrowCourse {
   [[nodiscard]] Motion3 wanted_displacement(const ThrowInstant& clip_at_release) const;
 
   ThrowParameters wanted_;
-  bool moves_ball_ = false;    // Azimuth, elevation or speed are named.
   bool is_displaced_ = false;  // Anything is named.
   double half_width_s_ = 0.35;
   double time_s_ = 0.0;
