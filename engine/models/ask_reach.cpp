@@ -101,8 +101,7 @@ ReachFeasibility ask_reach(const ReachLengths& lengths,
                                          .arrive_s = arrive_s,
                                          .latest_s = 2.0 * arrive_s,
                                          .target = question.target,
-                                         .target_time_s = 0.0,
-                                         .step_s = 1.0 / 60.0},
+                                         .target_time_s = 0.0},
                                         options);
   answer.duration_s = plan.arrive_s();
   answer.reachable = answer.missing_m <= kReachedWithin_m;

@@ -140,11 +140,6 @@ void ReachCourse::follow_target(const ReachInput& input, ReachOutput& output) {
     if (input.within) output.missing_m = bring_within(*input.within, target_);
     return;
   }
-  // Never seen: the hand stays with the clip.
-  target_ = ReachTarget{};
-  target_.velocity_m_s = input.clip_at_arrival.velocity_m_s;
-  target_.p_in_world = input.clip_at_arrival.p_in_world +
-                       (input.time_s - input.arrive_s) * target_.velocity_m_s;
 }
 
 void ReachCourse::advance_to(double time_s) {
@@ -152,7 +147,27 @@ void ReachCourse::advance_to(double time_s) {
   turned_rad_ = plan_.turn_rad.at(time_s);
 }
 
+// Before a target has been seen the hand stays with the clip, or goes there.
+void ReachCourse::wait(const ReachInput& input, ReachOutput& output) {
+  if (input.arrive_s <= input.time_s) {
+    begin_return(time_s_, moved_m_, turned_rad_);
+    return;
+  }
+  plan_.move_m =
+      fade_leg(time_s_, options_.return_s, moved_m_, options_.max_acceleration_m_s2);
+  plan_.turn_rad = fade_leg(
+      time_s_, options_.return_s, turned_rad_, options_.max_turn_acceleration_rad_s2);
+  advance_to(input.time_s);
+  output.hand = displaced(input.clip_now, moved_m_, turned_rad_);
+  output.turns = glm::length(turned_rad_.value) > 0.0;
+  output.remaining_s = input.arrive_s - input.time_s;
+}
+
 void ReachCourse::reach(const ReachInput& input, ReachOutput& output) {
+  if (!given_) {
+    wait(input, output);
+    return;
+  }
   const double latest_s =
       std::max(input.arrive_s, input.time_s + input.clip_remaining_s / kMinRate);
   const bool is_last =
@@ -165,8 +180,7 @@ void ReachCourse::reach(const ReachInput& input, ReachOutput& output) {
                           .arrive_s = input.arrive_s,
                           .latest_s = latest_s,
                           .target = target_,
-                          .target_time_s = input.time_s,
-                          .step_s = input.step_s},
+                          .target_time_s = input.time_s},
                          options_);
     has_plan_ = true;
   }
@@ -195,8 +209,8 @@ void ReachCourse::arrive(const ReachInput& input, double event_s) {
   const HandMotion base = target_as_hand(target_, clip, event_s - input.time_s);
   const HandMotion hand = displaced(clip, moved_m_, turned_rad_);
   const Motion3 from_target = way_between(base, hand);
-  has_arrived_ = given_ && glm::length(from_target.value) <= kArrived_m;
-  if (!given_ || (has_arrived_ && options_.after == AfterArrival::kReturn)) {
+  has_arrived_ = glm::length(from_target.value) <= kArrived_m;
+  if (has_arrived_ && options_.after == AfterArrival::kReturn) {
     begin_return(event_s, moved_m_, turned_rad_);
     return;
   }

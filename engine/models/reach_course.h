@@ -73,6 +73,7 @@ class ReachCourse {
   // The hand whose displacement is the state: the clip's, or the target while holding.
   [[nodiscard]] HandMotion held_base(const ReachInput& input) const;
   void follow_target(const ReachInput& input, ReachOutput& output);
+  void wait(const ReachInput& input, ReachOutput& output);
   void reach(const ReachInput& input, ReachOutput& output);
   void arrive(const ReachInput& input, double event_s);
   void hold(const ReachInput& input, ReachOutput& output);

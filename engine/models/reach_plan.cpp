@@ -37,8 +37,11 @@ HandMotion wanted_hand(const ArrivalQuestion& question,
                        double arrive_s) {
   const ReachTarget& target = question.target;
   const double ahead_s = std::max(0.0, arrive_s - question.target_time_s);
-  const double trust =
-      std::exp(-std::max(0.0, ahead_s - 2.0 * question.step_s) / options.trust_s);
+  // Falls to e^-1 at trust_s. Its square makes the prediction exact towards the arrival,
+  // so the last plans hardly change: with e^(-T / trust_s) a target at 0.5 m/s moves the
+  // predicted place by 1.4 mm between the last two plans.
+  const double trusts = ahead_s / options.trust_s;
+  const double trust = std::exp(-trusts * trusts);
   HandMotion wanted = clip;
   wanted.p_in_world = target.p_in_world + ahead_s * trust * target.velocity_m_s;
   wanted.velocity_m_s = target.velocity_m_s;

@@ -19,7 +19,6 @@ struct ArrivalQuestion {
   double latest_s = 0.0;
   ReachTarget target;
   double target_time_s = 0.0;  ///< Of the target.
-  double step_s = 0.0;         ///< The target's velocity counts fully in the last two.
 };
 
 /// Legs of the displacement to the arrival; both end at the same time.

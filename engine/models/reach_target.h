@@ -17,12 +17,12 @@ struct ReachTarget {
   glm::dvec3 velocity_m_s{0.0};
   /// Direction in which the hand moves when it arrives, relative to the target; not zero,
   /// any length. nullopt: that of the clip's hand, if `speed_m_s` asks for a speed.
-  std::optional<glm::dvec3> approach;
+  std::optional<glm::dvec3> approach{};
   /// Speed of the hand relative to the target when it arrives. nullopt: 0, or
   /// ReachOptions::approach_speed_m_s with an approach direction.
-  std::optional<double> speed_m_s;
+  std::optional<double> speed_m_s{};
   /// Rotation of the hand from the T-pose when it arrives. nullopt: that of the clip.
-  std::optional<glm::dquat> world_from_hand;
+  std::optional<glm::dquat> world_from_hand{};
   glm::dvec3 turn_rad_s{0.0};  ///< Angular velocity of that rotation, in world axes.
 };
 
@@ -49,7 +49,7 @@ struct ReachOptions {
   double max_acceleration_m_s2 = 25.0;
   double max_turn_acceleration_rad_s2 = 150.0;
   double approach_speed_m_s = 0.1;  ///< See ReachTarget::speed_m_s.
-  double trust_s = 0.3;             ///< A target's velocity counts for about this time.
+  double trust_s = 0.3;             ///< Times e^-(T / this)^2 a target's velocity counts.
   double settle_s = 0.2;  ///< Minimum time in which the hand stops at the target.
   double return_s = 0.4;  ///< Minimum time in which the displacement fades out.
 };
