@@ -175,7 +175,11 @@ void BlendPlayer::end_finished(double time_s) {
   count_ = kept;
 }
 
-bool BlendPlayer::evaluate(double time_s, double step_s, Blend& out) {
+bool BlendPlayer::blend_at(double time_s,
+                           double from_s,
+                           BlendSides& sides,
+                           std::array<PerGroup, kMaxActions>& weights_by_action,
+                           Blend& out) const {
   std::array<const Action*, kMaxActions> list{};
   const std::size_t count = alive(list);
   if (count == 0) return false;
@@ -193,8 +197,7 @@ bool BlendPlayer::evaluate(double time_s, double step_s, Blend& out) {
     sources[i] = &postures[i];
     const double share = static_cast<double>(weights[i][kRootGroup]);
     total[2] += share;
-    const RootPlace moves =
-        root_step(clip, list[i]->warp.source_s(time_s - step_s), source_s);
+    const RootPlace moves = root_step(clip, list[i]->warp.source_s(from_s), source_s);
     out.root_step.x_m += share * moves.x_m * rig_.leg_length_m;
     out.root_step.z_m += share * moves.z_m * rig_.leg_length_m;
     out.root_step.heading_rad += share * moves.heading_rad;
@@ -214,11 +217,33 @@ bool BlendPlayer::evaluate(double time_s, double step_s, Blend& out) {
     out.root_step.heading_rad /= total[2];
   }
   out.posture = shown_;
-  blend_postures({sources.data(), count}, {weights.data(), count}, &sides_, out.posture);
+  blend_postures({sources.data(), count}, {weights.data(), count}, &sides, out.posture);
   for (std::size_t i = 0; i < count; ++i) {
-    weights_[static_cast<std::size_t>(list[i] - actions_.data())] = weights[i];
+    weights_by_action[static_cast<std::size_t>(list[i] - actions_.data())] = weights[i];
   }
   return true;
+}
+
+bool BlendPlayer::evaluate(double time_s, double step_s, Blend& out) {
+  return blend_at(time_s, time_s - step_s, sides_, weights_, out);
+}
+
+bool BlendPlayer::predict(double now_s,
+                          double time_s,
+                          BlendPosture& posture,
+                          RootPlace& root) const {
+  BlendSides sides = sides_;
+  std::array<PerGroup, kMaxActions> weights{};
+  Blend blend;
+  if (!blend_at(time_s, now_s, sides, weights, blend)) return false;
+  posture = blend.posture;
+  root = moved(root_, blend.root_step);
+  return true;
+}
+
+PhaseWarp* BlendPlayer::warp(ActionId id) {
+  Action* action = find_mutable(id);
+  return action == nullptr || !action->is_alive() ? nullptr : &action->warp;
 }
 
 void BlendPlayer::move_root(const Blend& blend, double time_s, double step_s) {

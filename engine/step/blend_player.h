@@ -61,6 +61,15 @@ class BlendPlayer {
 
   [[nodiscard]] const BlendPosture& posture() const { return shown_; }
   [[nodiscard]] const RootPlace& root() const { return root_; }
+  /// Predicts posture and root at a later time if nothing changes: from the clips alone,
+  /// at their present warps. False: nothing plays. Allocates nothing.
+  [[nodiscard]] bool predict(double now_s,
+                             double time_s,
+                             BlendPosture& posture,
+                             RootPlace& root) const;
+  /// The warp of an action that plays; nullptr: it does not.
+  [[nodiscard]] PhaseWarp* warp(ActionId id);
+
   /// Moves the character, for example to its start.
   void place(const RootPlace& root) { root_ = root; }
   /// Turns the root about a point of the floor, in addition to the clips.
@@ -90,6 +99,11 @@ class BlendPlayer {
   void limit_alive(double time_s);
   void end_finished(double time_s);
   [[nodiscard]] std::size_t alive(std::span<const Action*> out) const;
+  [[nodiscard]] bool blend_at(double time_s,
+                              double from_s,
+                              BlendSides& sides,
+                              std::array<PerGroup, kMaxActions>& weights,
+                              Blend& out) const;
   [[nodiscard]] bool evaluate(double time_s, double step_s, Blend& out);
   void move_root(const Blend& blend, double time_s, double step_s);
 

@@ -14,6 +14,8 @@ namespace marey::engine {
 namespace {
 
 constexpr std::array<const char*, 2> kSupportIds{"support left", "support right"};
+constexpr std::array<const char*, 2> kReachIds{"reach left", "reach right"};
+constexpr std::array<const char*, 2> kTurnIds{"reach turn left", "reach turn right"};
 constexpr std::array<HumanBone, 2> kFootBones{HumanBone::kLeftFoot,
                                               HumanBone::kRightFoot};
 constexpr double kBearsAbove = 0.6;
@@ -68,8 +70,21 @@ Result<CharacterPlayer> CharacterPlayer::make(std::shared_ptr<const MotionBase> 
   }
   ConstraintSet constraints;
   constraints.constraints = {support_of(0), support_of(1)};
+  if (spec.reaches) {
+    for (const int side : {0, 1}) {
+      for (Constraint& hand :
+           reach_constraints(spec.character.skeleton, spec.map, side)) {
+        constraints.constraints.push_back(std::move(hand));
+      }
+    }
+  }
   for (const Constraint& constraint : spec.constraints.constraints) {
-    for (const char* id : kSupportIds) {
+    for (const char* id : {kSupportIds[0],
+                           kSupportIds[1],
+                           kReachIds[0],
+                           kReachIds[1],
+                           kTurnIds[0],
+                           kTurnIds[1]}) {
       if (constraint.id != id) continue;
       return bad_input("character \"" + spec.character.name + "\"",
                        "the constraint \"" + constraint.id + "\" has an id of the engine",
@@ -102,6 +117,8 @@ CharacterPlayer::CharacterPlayer(std::shared_ptr<const MotionBase> base,
       pose_(reference_) {
   for (std::size_t side = 0; side < 2; ++side) {
     supports_[side] = adapter_->constraint(kSupportIds[side]);
+    reach_handles_[2 * side] = adapter_->constraint(kReachIds[side]);
+    reach_handles_[2 * side + 1] = adapter_->constraint(kTurnIds[side]);
   }
 }
 
@@ -168,6 +185,7 @@ void CharacterPlayer::hold_feet(double time_s, double step_s) {
     const FootHold::Place place = feet_[side].step(
         reference, map_->feet[side], blend_.rig().leg_length_m, step_s, foot_options_);
     report_.stands[side] = feet_[side].holds();
+    ankle_xz_m_[side] = {place.ankle_in_world.x, place.ankle_in_world.z};
     supports_[side]->set_target(
         glm::mix(reference.ankle_in_world, place.ankle_in_world, share));
     supports_[side]->set_orientation(glm::normalize(
@@ -175,8 +193,41 @@ void CharacterPlayer::hold_feet(double time_s, double step_s) {
   }
 }
 
+void CharacterPlayer::reach(ReachPlayer reach) {
+  const std::size_t side = static_cast<std::size_t>(reach.side());
+  reaches_[side] = std::move(reach);
+}
+
+ReachPlayer* CharacterPlayer::reaching(int side) {
+  auto& reach = reaches_[static_cast<std::size_t>(side)];
+  return reach ? &*reach : nullptr;
+}
+
+void CharacterPlayer::steer_root(double time_s, double step_s) {
+  if (!steer_) return;
+  std::array<bool, 2> bears{};
+  for (std::size_t side = 0; side < 2; ++side)
+    bears[side] = bore_[side][0] || bore_[side][1];
+  steer_->step(time_s, step_s, ankle_xz_m_, bears, blend_);
+}
+
+void CharacterPlayer::move_hands(double time_s, double step_s) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (!reaches_[side]) continue;
+    if (!reaches_[side]->step(time_s,
+                              step_s,
+                              blend_,
+                              world_from_joint_,
+                              *reach_handles_[2 * side],
+                              *reach_handles_[2 * side + 1])) {
+      reaches_[side].reset();
+    }
+  }
+}
+
 void CharacterPlayer::step(double time_s, double step_s) {
   if (!blend_.step(time_s, step_s)) return;
+  steer_root(time_s, step_s);
   report_.transition = blend_.report();
   to_normalized(blend_.posture(),
                 blend_.base().layout(),
@@ -197,6 +248,7 @@ void CharacterPlayer::step(double time_s, double step_s) {
     return;
   }
   hold_feet(time_s, step_s);
+  move_hands(time_s, step_s);
   report_.adapt = adapter_->adapt(reference_, time_s, pose_);
 }
 

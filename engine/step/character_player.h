@@ -8,10 +8,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/feet/foot_hold.h"
 #include "engine/step/blend_player.h"
+#include "engine/step/reach_player.h"
+#include "engine/step/steer_player.h"
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "core/base/result.h"
@@ -41,6 +45,7 @@ struct CharacterSpec {
   /// Constraints that may act on it. Activations begin as they state; the caller starts
   /// and moves them through constraint(). Supports of the feet are added.
   ConstraintSet constraints;
+  bool reaches = false;  ///< May play reaches: reserves constraints of both hands.
   BlendPlayerOptions blend;
   FootHoldOptions feet;
   retarget::AdaptOptions adapt;
@@ -65,6 +70,14 @@ class CharacterPlayer {
 
   /// Computes the posture at time_s, step_s after the last one.
   void step(double time_s, double step_s);
+
+  /// Leads an action to a goal, or a hand to a target, instead of an earlier one.
+  void steer(SteerPlayer steer) { steer_ = std::move(steer); }
+  void reach(ReachPlayer reach);
+  [[nodiscard]] SteerPlayer* steering() { return steer_ ? &*steer_ : nullptr; }
+  /// nullptr: that hand (0 left, 1 right) does not reach.
+  [[nodiscard]] ReachPlayer* reaching(int side);
+  [[nodiscard]] bool can_reach() const { return reach_handles_[0].has_value(); }
 
   [[nodiscard]] BlendPlayer& blend() { return blend_; }
   [[nodiscard]] const BlendPlayer& blend() const { return blend_; }
@@ -91,6 +104,8 @@ class CharacterPlayer {
   [[nodiscard]] FootReference foot_reference(std::size_t side, double time_s) const;
   void add_landing(std::size_t side, double time_s, FootReference& out) const;
   void hold_feet(double time_s, double step_s);
+  void steer_root(double time_s, double step_s);
+  void move_hands(double time_s, double step_s);
 
   std::shared_ptr<const Character> character_;
   std::shared_ptr<const retarget::BodyMap> map_;
@@ -100,7 +115,12 @@ class CharacterPlayer {
   double activation_ = 1.0;  ///< Of supports, before smoothing.
   std::unique_ptr<retarget::Adapter> adapter_;
   std::array<std::optional<retarget::Adapter::Handle>, 2> supports_{};
+  /// By hand: the point, then the rotation.
+  std::array<std::optional<retarget::Adapter::Handle>, 4> reach_handles_{};
+  std::array<std::optional<ReachPlayer>, 2> reaches_{};
+  std::optional<SteerPlayer> steer_;
   std::array<FootHold, 2> feet_{};
+  std::array<glm::dvec2, 2> ankle_xz_m_{};     ///< As the feet stood in the last step.
   std::array<std::array<bool, 2>, 2> bore_{};  ///< [foot][heel, ball], with hysteresis.
   retarget::NormalizedPose normalized_;
   std::vector<RigidTransform> world_from_joint_;
