@@ -41,9 +41,9 @@ glm::dquat swung(std::mt19937& random, const glm::dquat& from, double angle_rad)
 PlainClip plain_clip(std::mt19937& random) {
   PlainClip clip;
   JointFrame frame;
-  for (glm::dquat& q : frame) q = swung(random, glm::dquat(1, 0, 0, 0), 0.6);
+  for (glm::dquat& q : frame) q = swung(random, glm::dquat(1, 0, 0, 0), 0.4);
   for (std::size_t i = 0; i < kFrames; ++i) {
-    for (glm::dquat& q : frame) q = swung(random, q, 0.05);
+    for (glm::dquat& q : frame) q = swung(random, q, 0.02);
     clip.frames.push_back(frame);
   }
   return clip;
@@ -53,11 +53,11 @@ MotionClip lane_clip(std::mt19937& random) {
   MotionClip clip;
   clip.rate_hz = 60.0F;
   std::array<glm::dquat, kPostureRotations> rotations;
-  for (glm::dquat& q : rotations) q = swung(random, glm::dquat(1, 0, 0, 0), 0.6);
+  for (glm::dquat& q : rotations) q = swung(random, glm::dquat(1, 0, 0, 0), 0.4);
   for (std::size_t i = 0; i < kFrames; ++i) {
     BlendPosture posture;
     for (std::size_t r = 0; r < kPostureRotations; ++r) {
-      rotations[r] = swung(random, rotations[r], 0.05);
+      rotations[r] = swung(random, rotations[r], 0.02);
       posture.x[r] = static_cast<float>(rotations[r].x);
       posture.y[r] = static_cast<float>(rotations[r].y);
       posture.z[r] = static_cast<float>(rotations[r].z);
