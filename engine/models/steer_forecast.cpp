@@ -127,8 +127,8 @@ SteerStrategy first_to_arrive(const SteerScene& scene,
     best = strategy;
     predicted = other;
   };
-  // A goal well within a circle is not tried: it would be run around in vain.
-  constexpr double kWell = 0.85;
+  // A goal well within the circle is left out: the course would go around it without end.
+  constexpr double kWell = 0.6;
   const double tight = scene.settings->min_scale;
   predicted = {};
   const bool is_close =
