@@ -45,8 +45,9 @@ struct SteeredClip {
 };
 
 void keep_frames(std::vector<FrameRange>& runs, int last) {
-  std::erase_if(runs, [&](const FrameRange& run) { return run.first > last; });
   for (FrameRange& run : runs) run.last = std::min(run.last, last);
+  // Contacts of one frame at the seam are rests of those of the neighbouring cycles.
+  std::erase_if(runs, [](const FrameRange& run) { return run.last <= run.first; });
 }
 
 /// One cycle of a rendered loop of two, with the first frame of the second one.

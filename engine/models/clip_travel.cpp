@@ -27,31 +27,49 @@ bool lands_between(PhaseClass before, PhaseClass after) {
   return before != PhaseClass::kBoth;
 }
 
-// Phases of two cycles without the seam between equal ones; the first one starts at or
-// after 0.
+void append_phase(std::vector<Phase>& phases, const Phase& phase) {
+  if (!phases.empty() && phases.back().feet == phase.feet) {
+    phases.back().end_s = phase.end_s;
+  } else {
+    phases.push_back(phase);
+  }
+}
+
+double phase_length_s(const Phase& phase) {
+  return phase.end_s - phase.start_s;
+}
+
+// Phases of two cycles, across their seams; the first one starts at or after 0.
 std::vector<Phase> phases_of_two_cycles(const MotionClip& clip) {
   const std::vector<Phase> once = phases_of(clip, kMinPhase_s);
   const double cycle_s = clip.duration_s();
-  std::vector<Phase> out;
-  for (const double offset_s : {0.0, cycle_s}) {
+  std::vector<Phase> all;
+  for (const double offset_s : {-cycle_s, 0.0, cycle_s, 2.0 * cycle_s}) {
     for (const Phase& phase : once) {
-      if (!out.empty() && out.back().feet == phase.feet) {
-        out.back().end_s = phase.end_s + offset_s;
-      } else {
-        out.push_back({phase.feet, phase.start_s + offset_s, phase.end_s + offset_s});
-      }
+      append_phase(all, {phase.feet, phase.start_s + offset_s, phase.end_s + offset_s});
     }
   }
-  // The first phase continues the last one of the cycle before.
-  if (once.size() > 1 && once.front().feet == once.back().feet) out.erase(out.begin());
-  return out;
+  // A short phase at a seam joins the longer one of its neighbours.
+  std::vector<Phase> joined;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Phase phase = all[i];
+    if (phase_length_s(phase) < kMinPhase_s && i > 0 && i + 1 < all.size()) {
+      const bool to_earlier = phase_length_s(all[i - 1]) >= phase_length_s(all[i + 1]);
+      phase.feet = all[to_earlier ? i - 1 : i + 1].feet;
+    }
+    append_phase(joined, phase);
+  }
+  std::erase_if(joined, [&](const Phase& phase) {
+    return phase.start_s < -1e-9 || phase.start_s >= 2.0 * cycle_s - 1e-9;
+  });
+  return joined;
 }
 
 std::vector<ClipStep> find_steps(const MotionClip& clip) {
   const std::vector<Phase> phases = phases_of_two_cycles(clip);
   const double cycle_s = clip.duration_s();
   std::vector<ClipStep> steps;
-  for (std::size_t i = 0; i < phases.size() && phases[i].start_s < cycle_s; ++i) {
+  for (std::size_t i = 0; i < phases.size() && phases[i].start_s < cycle_s - 1e-9; ++i) {
     if (!stands_alone(phases[i])) continue;
     std::size_t j = i + 1;
     while (j < phases.size() && !lands_between(phases[j - 1].feet, phases[j].feet)) ++j;

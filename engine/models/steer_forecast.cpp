@@ -57,7 +57,8 @@ void skip_straight_steps(const SteerScene& scene,
 
 // Radius of the tightest circle of whole steps.
 double turn_radius_m(const SteerScene& scene, double scale) {
-  const double turn_rad = max_turn_of(scene, scene.travel->mean_alone_s);
+  const double turn_rad =
+      scene.turn_share * max_turn_of(scene, scene.travel->mean_alone_s);
   return 0.5 * scale * mean_along_m(scene) / std::max(std::sin(0.5 * turn_rad), 1e-6);
 }
 
@@ -117,27 +118,37 @@ namespace {
 SteerStrategy first_to_arrive(const SteerScene& scene,
                               const SteerMoment& moment,
                               SteerForecast& predicted) {
-  predicted = forecast(scene, moment, {});
   SteerStrategy best;
-  if (predicted.arrives || !scene.travel->travels ||
-      predicted.duration_s > scene.settings->max_duration_s) {
-    return best;
-  }
   const auto consider = [&](const SteerStrategy& strategy) {
     const SteerForecast other = forecast(scene, moment, strategy);
     const bool is_better =
         other.arrives && (!predicted.arrives || other.duration_s < predicted.duration_s);
-    if (!is_better) return;
+    if (!is_better && predicted.steps > 0) return;
     best = strategy;
     predicted = other;
   };
-  consider({0, true});
+  // A goal well within the circle is left out: the course would go around it without end.
+  constexpr double kWell = 0.6;
+  const double tight = scene.settings->min_scale;
+  predicted = {};
+  const bool is_close =
+      glm::length(scene.goal_xz_m - moment.pivot_xz_m) < 3.0 * mean_along_m(scene);
+  if (!scene.travel->travels || is_close ||
+      steps_out_of_circle(scene, moment, kWell) == 0) {
+    consider({});
+    const bool is_too_far = predicted.duration_s > scene.settings->max_duration_s;
+    if (predicted.arrives || !scene.travel->travels || is_too_far) return best;
+  }
+  if (steps_out_of_circle(scene, moment, kWell * tight) == 0) consider({0, true});
   for (const bool is_tight : {true, false}) {
-    const int steps =
-        steps_out_of_circle(scene, moment, is_tight ? scene.settings->min_scale : 1.0);
+    const int steps = steps_out_of_circle(scene, moment, is_tight ? tight : 1.0);
     for (int more = 0; more < 3 && !predicted.arrives; ++more) {
       consider({std::max(steps, 1) + more, is_tight});
     }
+  }
+  if (!predicted.arrives) {
+    best = {};
+    predicted = forecast(scene, moment, {});
   }
   return best;
 }

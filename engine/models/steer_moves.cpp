@@ -155,7 +155,7 @@ SteerMove last_move(const SteerScene& scene, const SteerMoment& moment, double t
   return move;
 }
 
-// Of turns between none and that to the goal the one that ends closest; a turn costs a
+// The best of no turn, half of it and the whole turn to the goal; a turn costs a
 // tenth of a step per radian.
 SteerMove best_last_move(const SteerScene& scene,
                          const SteerMoment& moment,
