@@ -55,9 +55,9 @@ struct MotionClip {
   std::string recipe_sha256;    ///< Of its recipe; empty: it has none.
 
   [[nodiscard]] double duration_s() const {
-    return frames.size() < 2 ? 0.0
-                             : static_cast<double>(frames.size() - 1) /
-                                   static_cast<double>(rate_hz);
+    return frames.size() < 2
+               ? 0.0
+               : static_cast<double>(frames.size() - 1) / static_cast<double>(rate_hz);
   }
 };
 

@@ -4,8 +4,9 @@
 
 #include <span>
 
-#include "core/engine/blend_posture.h"
 #include "engine/blend/posture_groups.h"
+
+#include "core/engine/blend_posture.h"
 
 namespace marey::engine {
 

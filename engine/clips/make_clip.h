@@ -35,10 +35,10 @@ struct ClipSource {
 /// enough; else even ones.
 [[nodiscard]] PostureLayout choose_layout(std::span<const retarget::BodyMap> bodies);
 
-/// Makes one clip. Contacts become spans between the middles of the frames at their edges.
-/// Errors (bad input, naming the clip): fewer than two poses; numbers that are not finite;
-/// a body without complete arms and legs; `loops`, and the last posture differs from the
-/// first one by more than 2 degrees or 1 cm.
+/// Makes one clip. Contacts become spans between the middles of the frames at their
+/// edges. Errors (bad input, naming the clip): fewer than two poses; numbers that are not
+/// finite; a body without complete arms and legs; `loops`, and the last posture differs
+/// from the first one by more than 2 degrees or 1 cm.
 [[nodiscard]] Result<MotionClip> make_clip(const ClipSource& source,
                                            const PostureLayout& layout);
 

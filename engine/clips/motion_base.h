@@ -9,9 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/sync/phases.h"
+
 #include "core/base/result.h"
 #include "core/engine/motion_clip.h"
-#include "engine/sync/phases.h"
 
 namespace marey::engine {
 

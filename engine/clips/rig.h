@@ -21,7 +21,7 @@ struct Rig {
   std::array<glm::dvec3, 2> ball_from_ankle_legs{};
   std::array<double, 2> ankle_height_legs{};
   std::array<double, 2> ball_height_legs{};
-  glm::dvec3 neck_from_hips_legs{};                    ///< Base of the neck.
+  glm::dvec3 neck_from_hips_legs{};                     ///< Base of the neck.
   std::array<glm::dvec3, 2> shoulder_from_neck_legs{};  ///< Upper arm's joint.
   std::array<double, 2> arm_legs{};
   glm::dvec3 head_from_neck_legs{};

@@ -10,8 +10,8 @@ namespace marey::engine {
 
 /// Feet that bear during a phase of supports.
 enum class PhaseClass {
-  kNone,   ///< Flight.
-  kLeft,   ///< The left foot alone.
+  kNone,  ///< Flight.
+  kLeft,  ///< The left foot alone.
   kRight,
   kBoth,
   kAny,  ///< Unknown: a clip without contacts (seated, swimming). Compatible with all.

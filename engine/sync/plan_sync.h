@@ -5,8 +5,9 @@
 #include <array>
 #include <span>
 
-#include "core/time_warp.h"
 #include "engine/sync/phases.h"
+
+#include "core/time_warp.h"
 
 namespace marey::engine {
 
@@ -15,8 +16,8 @@ struct SyncSide {
   std::span<const Phase> phases;  ///< phases_of() its clip.
   double duration_s = 0.0;        ///< Of the clip.
   bool loops = false;
-  double now_s = 0.0;   ///< Place in the clip now; in [0, duration] if it does not loop.
-  double speed = 1.0;   ///< Clip seconds per second that its user asked for: > 0.
+  double now_s = 0.0;  ///< Place in the clip now; in [0, duration] if it does not loop.
+  double speed = 1.0;  ///< Clip seconds per second that its user asked for: > 0.
 };
 
 struct SyncOptions {
@@ -36,8 +37,8 @@ inline constexpr std::size_t kMaxSyncKnots = 12;
 /// Times of the follower matched to times of the lead.
 struct SyncPlan {
   /// Knots from now on. WarpKnot::time_s is the time from now [s]; WarpKnot::source_s the
-  /// unwrapped time of the follower's clip (it exceeds the duration of a clip that loops).
-  /// The first knot is at time 0, at the entry.
+  /// unwrapped time of the follower's clip (it exceeds the duration of a clip that
+  /// loops). The first knot is at time 0, at the entry.
   std::array<WarpKnot, kMaxSyncKnots> knots{};
   std::size_t knot_count = 0;
   double incompatible_s = 0.0;  ///< Within the horizon, if the plan is followed.

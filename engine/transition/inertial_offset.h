@@ -26,10 +26,14 @@ struct PostureRates {
                                          const BlendPosture& now,
                                          float step_s);
 
+/// Turns and moves a posture by rates for a time, without decay or limits. Rotations turn
+/// in the heading frame, by at most 240 degrees.
+void move_posture(const PostureRates& rates, float time_s, BlendPosture& posture);
+
 /// A decaying difference between a posture and the one that is played, so that a cut
 /// looks continuous in value and velocity (Bollo 2016, "Inertialization"; the decay is
-/// (x + (v + x y) t) e^(-y t), y = 2 ln 2 / half-life: Holden 2023). Differences of nested
-/// cuts add up.
+/// (x + (v + x y) t) e^(-y t), y = 2 ln 2 / half-life: Holden 2023). Differences of
+/// nested cuts add up.
 class InertialOffset {
  public:
   /// No difference.
@@ -52,8 +56,8 @@ class InertialOffset {
   BlendPosture::Rotations x_{};  ///< Rotation vectors, applied in the heading frame.
   BlendPosture::Rotations y_{};
   BlendPosture::Rotations z_{};
-  std::array<float, 24> values_{};  ///< Extension, mid, twists, height.
-  PostureRates rates_{};
+  std::array<float, 24> values_{};  ///< Extension, mid, twists, height, spine shares.
+  PostureRates rates_{};            ///< Of the offset.
 };
 
 /// Continues a posture whose source vanished: every velocity decays with `half_life_s`
