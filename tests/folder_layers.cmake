@@ -20,5 +20,5 @@ set(recordings_LAYERS
 set(live_LAYERS udp vmc page web)
 set(app_LAYERS
   shell motion pages adapt convert print plan record check markers process retarget
-  live_chain view edit jump engine library/sources library/find library/labels library/export
-  library/build library/check library/page library live inspect .)
+  live_chain view edit jump library/sources library/find library/labels library/export
+  library/build library/check library/page library engine live inspect .)

@@ -3,9 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
-
-#include "core/engine/motion_clip.h"
 
 // Private to recordings/moves: content of a base of clips (docs/formats/moves.md).
 namespace marey::recordings {
@@ -52,15 +49,5 @@ CREATE INDEX clip_speed ON clip(speed_m_s);
 CREATE INDEX clip_supports ON clip(supports);
 CREATE INDEX tag_name ON tag(name, clip);
 )";
-
-/// Returns the hash of a blob: XXH3 with 128 bits, as 32 hexadecimal digits.
-[[nodiscard]] std::string blob_sum(std::string_view bytes);
-
-/// Returns the mean speed of the hips over the floor, along their path. [m/s]
-[[nodiscard]] double mean_speed_m_s(const MotionClip& clip);
-
-/// Returns the supports that a clip has for at least 40 ms in all, as letters in this
-/// order: N no foot, L left, R right, D both; "X" for a clip without contacts.
-[[nodiscard]] std::string supports_of(const MotionClip& clip);
 
 }  // namespace marey::recordings

@@ -43,4 +43,16 @@ std::optional<std::size_t> find_damaged_page(std::string_view bytes,
   return std::nullopt;
 }
 
+std::string blob_sum(std::string_view bytes) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  XXH128_canonical_t sum{};
+  XXH128_canonicalFromHash(&sum, XXH3_128bits(bytes.data(), bytes.size()));
+  std::string text;
+  for (const unsigned char byte : sum.digest) {
+    text += kDigits[byte >> 4U];
+    text += kDigits[byte & 15U];
+  }
+  return text;
+}
+
 }  // namespace marey::recordings

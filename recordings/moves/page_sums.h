@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-// Private to recordings/moves: sums in the reserved bytes at the end of each page of a
-// database, which SQLite leaves to programs.
+// Private to recordings/moves: sums of blobs, and sums in the reserved bytes at the end
+// of each page of a database, which SQLite leaves to programs.
 namespace marey::recordings {
 
 /// Reserved bytes of a page.
@@ -23,5 +23,8 @@ void write_page_sums(std::string& bytes, std::size_t page_bytes);
 /// one; nullopt: all are equal. Same precondition.
 [[nodiscard]] std::optional<std::size_t> find_damaged_page(std::string_view bytes,
                                                            std::size_t page_bytes);
+
+/// Returns the sum of a blob: XXH3 with 128 bits, as 32 hexadecimal digits.
+[[nodiscard]] std::string blob_sum(std::string_view bytes);
 
 }  // namespace marey::recordings

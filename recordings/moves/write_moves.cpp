@@ -16,6 +16,7 @@
 #include "recordings/base/sqlite.h"
 #include "recordings/body/constraints_file.h"
 #include "recordings/moves/check_clip.h"
+#include "recordings/moves/clip_figures.h"
 #include "recordings/moves/moves_schema.h"
 #include "recordings/moves/pack_frames.h"
 #include "recordings/moves/page_sums.h"

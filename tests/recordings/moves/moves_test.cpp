@@ -15,7 +15,7 @@
 
 #include "recordings/base/atomic_file.h"
 #include "recordings/body/constraints_file.h"
-#include "recordings/moves/moves_schema.h"
+#include "recordings/moves/clip_figures.h"
 #include "recordings/moves/read_moves.h"
 #include "recordings/moves/write_moves.h"
 #include "tests/support/files/random_moves.h"

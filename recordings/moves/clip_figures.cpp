@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/moves/moves_schema.h"
+#include "recordings/moves/clip_figures.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
-#include <xxhash.h>
+#include "recordings/moves/pack_frames.h"
 
 namespace marey::recordings {
 namespace {
@@ -37,18 +38,6 @@ std::vector<ContactEdge> contact_edges(const MotionClip& clip) {
 }
 
 }  // namespace
-
-std::string blob_sum(std::string_view bytes) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  XXH128_canonical_t sum{};
-  XXH128_canonicalFromHash(&sum, XXH3_128bits(bytes.data(), bytes.size()));
-  std::string text;
-  for (const unsigned char byte : sum.digest) {
-    text += kDigits[byte >> 4U];
-    text += kDigits[byte & 15U];
-  }
-  return text;
-}
 
 double mean_speed_m_s(const MotionClip& clip) {
   double way_legs = 0.0;
@@ -85,6 +74,12 @@ std::string supports_of(const MotionClip& clip) {
     if (times_s[k] >= kMinTime_s) out += kLetters[k];
   }
   return out;
+}
+
+std::size_t clip_bytes(const MotionClip& clip) {
+  std::size_t bytes = clip.frames.size() * kFrameBytes;
+  for (const auto& part : clip.contacts) bytes += 4 + 8 * part.size();
+  return bytes;
 }
 
 }  // namespace marey::recordings
