@@ -3,9 +3,10 @@
 #include "app/engine/base_recipe.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <optional>
+#include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -13,6 +14,8 @@
 #include "app/edit/edit_inputs.h"
 #include "app/edit/edit_outputs.h"
 #include "app/edit/edit_run.h"
+#include "core/base/input_file.h"
+#include "core/constraint.h"
 #include "core/edit/edit_recipe.h"
 #include "recordings/base/sha256.h"
 
@@ -44,6 +47,19 @@ void cut_ranges(std::vector<FrameRange>& ranges, int frames) {
   for (FrameRange& range : ranges) range.last = std::min(range.last, frames - 1);
 }
 
+/// Removes constraints that begin after the end, unless another one refers to them.
+void cut_constraints(ConstraintSet& set, double end_s) {
+  std::set<std::string> referred;
+  for (const Constraint& constraint : set.constraints) {
+    const auto* goal = std::get_if<DistanceToConstraint>(&constraint.goal);
+    if (goal != nullptr) referred.insert(goal->other_id);
+  }
+  std::erase_if(set.constraints, [&](const Constraint& constraint) {
+    return constraint.activation.start_s.value_or(0.0) >= end_s &&
+           !referred.contains(constraint.id);
+  });
+}
+
 /// Removes all frames behind the first `frames`.
 void cut_state(edit::EditState& state, int frames) {
   state.motion.poses.resize(static_cast<std::size_t>(frames));
@@ -54,6 +70,7 @@ void cut_state(edit::EditState& state, int frames) {
     }
   }
   const double end_s = state.duration_s();
+  cut_constraints(state.constraints, end_s);
   std::vector<Annotation>& notes = state.annotations.notes;
   std::erase_if(notes, [&](const Annotation& note) { return note.start_s >= end_s; });
   for (Annotation& note : notes) note.end_s = std::min(note.end_s, end_s);
@@ -121,6 +138,7 @@ engine::ClipSource clip_source_of(edit::EditState state) {
 
 Result<std::vector<engine::ClipSource>> read_base_motion(const fs::path& file,
                                                          Console& console) {
+  if (const Status ok = check_input_file(file); !ok) return ok.error();
   EditRecipe recipe;
   recipe.name = file.stem().string();
   EditSource named;
