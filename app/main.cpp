@@ -16,6 +16,7 @@
 #include "app/convert/convert_commands.h"
 #include "app/convert/mannequin_commands.h"
 #include "app/edit/edit_commands.h"
+#include "app/engine/base_commands.h"
 #include "app/inspect/doctor_commands.h"
 #include "app/inspect/inspect_commands.h"
 #include "app/jump/jump_commands.h"
@@ -57,6 +58,7 @@ struct Arguments {
   EditArguments edit;
   JumpArguments jump;
   LibraryArguments library;
+  BaseArguments base;
   ConvertArguments convert;
   MannequinArguments mannequin;
   PrintArguments print;
@@ -116,6 +118,7 @@ int run(int argc, char** argv) {
   add_edit_command(app, args.edit, chosen);
   add_jump_command(app, args.jump, chosen);
   add_library_command(app, args.library, chosen);
+  add_base_command(app, args.base, chosen);
   add_convert_command(app, args.convert, chosen);
   add_mannequin_command(app, args.mannequin, chosen);
   add_print_commands(app, args.print, chosen);

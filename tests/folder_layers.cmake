@@ -16,9 +16,10 @@ set(dynamics_LAYERS push flight momentum balance jumps)
 set(edit_LAYERS signal state balance find filter splice jump ops markers .)
 set(engine_LAYERS sync blend clips transition feet models detail actions step .)
 set(library_LAYERS clips features quality search duplicates segments labels export)
-set(recordings_LAYERS base body edit takes motion gltf markers print session library scene)
+set(recordings_LAYERS
+  base body edit takes motion gltf markers print session library moves scene)
 set(live_LAYERS udp vmc page web)
 set(app_LAYERS
   shell motion pages adapt convert print plan record check markers process retarget
   live_chain view edit jump library/sources library/find library/labels library/export
-  library/build library/check library/page library live inspect .)
+  library/build library/check library/page library engine live inspect .)

@@ -180,6 +180,35 @@ Result<Database> open_recorded(const fs::path& file) {
   return database;
 }
 
+Database open_bytes(std::span<const std::byte> bytes) {
+  Database database = open_database("memory", SQLITE_OPEN_READWRITE, "mode=memory");
+  if (!database) return nullptr;
+  // Pages are used in place. SQLite's interface has no const; READONLY protects the
+  // bytes.
+  auto* const data =
+      reinterpret_cast<unsigned char*>(const_cast<std::byte*>(bytes.data()));
+  const auto size = static_cast<sqlite3_int64>(bytes.size());
+  const bool is_open =
+      sqlite3_deserialize(
+          database.get(), "main", data, size, size, SQLITE_DESERIALIZE_READONLY) ==
+          SQLITE_OK &&
+      execute(database.get(), "PRAGMA mmap_size=" + std::to_string(bytes.size()));
+  if (!is_open) return nullptr;
+  limit_to(bytes.size(), database.get());
+  return database;
+}
+
+std::string bytes_of_database(sqlite3* database) {
+  struct Free {
+    void operator()(unsigned char* bytes) const { sqlite3_free(bytes); }
+  };
+  sqlite3_int64 size = 0;
+  const std::unique_ptr<unsigned char, Free> bytes(
+      sqlite3_serialize(database, "main", &size, 0));
+  if (!bytes || size <= 0) return {};
+  return {reinterpret_cast<const char*>(bytes.get()), static_cast<std::size_t>(size)};
+}
+
 bool has_schema(sqlite3* database, std::string_view schema) {
   Statement rows(database, "SELECT coalesce(sql, '') FROM sqlite_schema ORDER BY rowid");
   std::string found;

@@ -58,6 +58,13 @@ struct RecordedKind {
 /// check_input_file(); the copy cannot be created (kDevice).
 [[nodiscard]] Result<Database> open_recorded(const std::filesystem::path& file);
 
+/// Opens the bytes of a database for reading, without a copy; null when they are none.
+/// Limited as open_recorded(). `bytes` must outlive the result.
+[[nodiscard]] Database open_bytes(std::span<const std::byte> bytes);
+
+/// Returns the bytes of a database that is open for writing; empty: no memory is left.
+[[nodiscard]] std::string bytes_of_database(sqlite3* database);
+
 /// Returns true if the tables are exactly those of `schema`. A table with computed rows
 /// or columns could be infinite.
 [[nodiscard]] bool has_schema(sqlite3* database, std::string_view schema);

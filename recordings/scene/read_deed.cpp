@@ -204,11 +204,11 @@ SceneConstrain read_constrain(TomlReader& in, const Scene& scene) {
 }  // namespace
 
 const std::vector<std::string_view>& deed_keys(std::size_t deed) {
-  using Keys = std::vector<std::string_view>;
-  static const std::array<Keys, kSceneDeeds.size()> kKeys{
-      Keys{"clip", "loops", "cycles", "rate", "from_s", "transition"},
-      Keys{"action"},
-      Keys{"clip",
+  using KeyList = std::vector<std::string_view>;
+  static const std::array<KeyList, kSceneDeeds.size()> kKeys{
+      KeyList{"clip", "loops", "cycles", "rate", "from_s", "transition"},
+      KeyList{"action"},
+      KeyList{"clip",
            "target",
            "hand",
            "offset_m",
@@ -218,7 +218,7 @@ const std::vector<std::string_view>& deed_keys(std::size_t deed) {
            "arrival_speed_m_s",
            "arrive_s",
            "holds"},
-      Keys{"clip",
+      KeyList{"clip",
            "hand",
            "place_left_m",
            "place_up_m",
@@ -231,7 +231,7 @@ const std::vector<std::string_view>& deed_keys(std::size_t deed) {
            "drag_1_m",
            "trials",
            "every_s"},
-      Keys{"clip",
+      KeyList{"clip",
            "target",
            "stop_clip",
            "max_turn_deg",
@@ -239,10 +239,10 @@ const std::vector<std::string_view>& deed_keys(std::size_t deed) {
            "step_length",
            "arrive_within_m",
            "keeps"},
-      Keys{"clip", "apex_m", "apex_by_m", "airtime_s", "length_m", "box_m", "target"},
-      Keys{"target", "segment", "offset_m", "max_speed_m_s"},
-      Keys{"hand", "mass_kg", "offset_m"},
-      Keys{"type",
+      KeyList{"clip", "apex_m", "apex_by_m", "airtime_s", "length_m", "box_m", "target"},
+      KeyList{"target", "segment", "offset_m", "max_speed_m_s"},
+      KeyList{"hand", "mass_kg", "offset_m"},
+      KeyList{"type",
            "target",
            "segment",
            "offset_m",

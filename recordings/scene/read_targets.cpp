@@ -67,13 +67,13 @@ BodyPointPath read_body_point(TomlReader& in, const Scene& scene) {
 
 /// Allows the keys of a path of this kind.
 void allow_path(TomlReader& in, std::size_t kind) {
-  using Keys = std::vector<std::string_view>;
-  static const std::array<Keys, kPathWords.size()> kKeys{
-      Keys{"position_m"},
-      Keys{"middle_m", "amplitude_m", "frequency_hz", "phase_deg"},
-      Keys{"times_s", "positions_m", "course"},
-      Keys{"body", "segment", "offset_m", "last_step"}};
-  Keys keys{"id", "path"};
+  using KeyList = std::vector<std::string_view>;
+  static const std::array<KeyList, kPathWords.size()> kKeys{
+      KeyList{"position_m"},
+      KeyList{"middle_m", "amplitude_m", "frequency_hz", "phase_deg"},
+      KeyList{"times_s", "positions_m", "course"},
+      KeyList{"body", "segment", "offset_m", "last_step"}};
+  KeyList keys{"id", "path"};
   keys.insert(keys.end(), kKeys[kind].begin(), kKeys[kind].end());
   if (kPathWords[kind] != "body") {
     for (const std::string_view key : {"frame", "for_stature_m", "drag"}) {

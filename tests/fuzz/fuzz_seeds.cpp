@@ -19,9 +19,11 @@
 #include "recordings/markers/marker_file.h"
 #include "recordings/markers/trc.h"
 #include "recordings/motion/bvh.h"
+#include "recordings/moves/write_moves.h"
 #include "tests/fuzz/fuzz_seeds_edits.h"
 #include "tests/fuzz/fuzz_seeds_osc.h"
 #include "tests/fuzz/fuzz_seeds_results.h"
+#include "tests/support/files/random_moves.h"
 
 namespace {
 
@@ -205,6 +207,8 @@ bool write_all(const std::filesystem::path& folder) {
          write_constraint_sets(folder / "constraints") && write_motions(folder) &&
          fuzz::write_result_seeds(folder, small_motion()) &&
          fuzz::write_edit_seeds(folder / "edit_recipe") &&
+         write_moves(folder / "moves/two.marey", testing::random_moves(2, 4, 1))
+             .has_value() &&
          write_file(folder / "osc/pose", fuzz::osc_pose()).has_value() &&
          write_file(folder / "osc/commands", fuzz::osc_commands()).has_value() &&
          write_file(folder / "trc/odd.trc", odd).has_value() &&
