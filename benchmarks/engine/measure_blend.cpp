@@ -63,7 +63,7 @@ MotionClip lane_clip(std::mt19937& random) {
       posture.z[r] = static_cast<float>(rotations[r].z);
       posture.w[r] = static_cast<float>(rotations[r].w);
     }
-    posture.extension.fill(0.9F);
+    posture.fold_rad.fill(0.9F);
     posture.height_legs = 1.0F;
     clip.frames.push_back(posture);
     clip.path.push_back(

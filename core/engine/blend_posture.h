@@ -49,8 +49,10 @@ struct alignas(16) BlendPosture {
   Rotations y{};
   Rotations z{};
   Rotations w{};
-  /// Values of the limbs: retarget::NormalizedLimb.
-  std::array<float, 4> extension{};
+  /// Values of the limbs: retarget::NormalizedLimb. The fold is the arc cosine of the
+  /// extension: 0 is a straight limb. Knees and elbows turn evenly with it, while the
+  /// speed of a nearly straight knee grows without bound over that of the extension.
+  std::array<float, 4> fold_rad{};
   std::array<float, 4> mid_x{};
   std::array<float, 4> mid_y{};
   std::array<float, 4> upper_twist_rad{};

@@ -81,7 +81,7 @@ void blend_two_values(const BlendPosture& a,
       r[i] = exact_ends(p[i], q[i], r[i], t, linear_angle(p[i], q[i], t));
     }
   };
-  blend(a.extension, b.extension, out.extension);
+  blend(a.fold_rad, b.fold_rad, out.fold_rad);
   blend(a.mid_x, b.mid_x, out.mid_x);
   blend(a.mid_y, b.mid_y, out.mid_y);
   turn(a.upper_twist_rad, b.upper_twist_rad, out.upper_twist_rad);
@@ -123,7 +123,7 @@ void blend_many_values(const Blended& blended, BlendPosture& out) {
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t group = group_of_limb()[i];
     blend(
-        group, false, [i](auto& p) -> auto& { return p.extension[i]; });
+        group, false, [i](auto& p) -> auto& { return p.fold_rad[i]; });
     blend(
         group, false, [i](auto& p) -> auto& { return p.mid_x[i]; });
     blend(
@@ -214,7 +214,7 @@ void interpolate(const BlendPosture& a,
   }
   interpolate_rotations(a, b, at, out);
   for (std::size_t i = 0; i < 4; ++i) {
-    out.extension[i] = linear_value(a.extension[i], b.extension[i], at);
+    out.fold_rad[i] = linear_value(a.fold_rad[i], b.fold_rad[i], at);
     out.mid_x[i] = linear_value(a.mid_x[i], b.mid_x[i], at);
     out.mid_y[i] = linear_value(a.mid_y[i], b.mid_y[i], at);
     out.upper_twist_rad[i] = linear_angle(a.upper_twist_rad[i], b.upper_twist_rad[i], at);

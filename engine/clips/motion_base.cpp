@@ -23,7 +23,7 @@ bool is_unit(const BlendPosture& posture) {
 bool is_finite(const BlendPosture& posture) {
   float sum = posture.height_legs + posture.abdomen_share + posture.torso_share;
   for (std::size_t i = 0; i < 4; ++i) {
-    sum += posture.extension[i] + posture.mid_x[i] + posture.mid_y[i] +
+    sum += posture.fold_rad[i] + posture.mid_x[i] + posture.mid_y[i] +
            posture.upper_twist_rad[i] + posture.lower_twist_rad[i];
   }
   return std::isfinite(sum);

@@ -28,7 +28,7 @@ glm::dquat rotation_of(const BlendPosture& posture, std::size_t i) {
 }
 
 glm::dvec3 limb_end(const BlendPosture& posture, std::size_t limb, double length) {
-  return length * std::cos(static_cast<double>(posture.extension[limb])) *
+  return length * std::cos(static_cast<double>(posture.fold_rad[limb])) *
          (rotation_of(posture, kLimbRotation + limb) * glm::dvec3(0, 0, 1));
 }
 

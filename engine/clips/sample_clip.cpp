@@ -215,8 +215,8 @@ void sample_clip(const MotionClip& clip, double time_s, BlendPosture& out) {
   out.height_legs =
       smooth(before.height_legs, a.height_legs, b.height_legs, after.height_legs);
   for (std::size_t i = 0; i < 4; ++i) {
-    out.extension[i] = std::max(
-        smooth(before.extension[i], a.extension[i], b.extension[i], after.extension[i]),
+    out.fold_rad[i] = std::max(
+        smooth(before.fold_rad[i], a.fold_rad[i], b.fold_rad[i], after.fold_rad[i]),
         0.0F);
   }
 }
@@ -251,7 +251,7 @@ void to_normalized(const BlendPosture& posture,
   for (std::size_t i = 0; i < 4; ++i) {
     if (!out.limbs[i]) out.limbs[i].emplace();
     retarget::NormalizedLimb& limb = *out.limbs[i];
-    limb.extension = std::cos(static_cast<double>(posture.extension[i]));
+    limb.extension = std::cos(static_cast<double>(posture.fold_rad[i]));
     limb.world_from_limb = heading * rotation_at(posture, kLimbRotation + i);
     limb.mid_offset = {static_cast<double>(posture.mid_x[i]),
                        static_cast<double>(posture.mid_y[i])};
@@ -291,7 +291,7 @@ void from_normalized(const retarget::NormalizedPose& pose,
     MAREY_ASSERT(pose.limbs[i].has_value());
     const retarget::NormalizedLimb& limb = *pose.limbs[i];
     set_rotation(posture, kLimbRotation + i, to_heading * limb.world_from_limb);
-    posture.extension[i] = static_cast<float>(std::acos(std::min(limb.extension, 1.0)));
+    posture.fold_rad[i] = static_cast<float>(std::acos(std::min(limb.extension, 1.0)));
     posture.mid_x[i] = static_cast<float>(limb.mid_offset.x);
     posture.mid_y[i] = static_cast<float>(limb.mid_offset.y);
     posture.upper_twist_rad[i] = static_cast<float>(limb.upper_twist_rad);

@@ -28,7 +28,7 @@ struct RootPlace {
 [[nodiscard]] RootPlace moved(const RootPlace& from, const RootPlace& by);
 
 /// Samples the posture of a clip: interpolate() between its frames, cubic for height and
-/// extensions. A clip that loops is periodic; another one is clamped.
+/// folds. A clip that loops is periodic; another one is clamped.
 void sample_clip(const MotionClip& clip, double time_s, BlendPosture& out);
 
 /// Returns the foot parts that bear at a time: bits by ClipFootPart.

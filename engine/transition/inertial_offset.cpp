@@ -138,14 +138,16 @@ float decay_values(const Decay& decay,
   return greatest;
 }
 
-void limit_extension(BlendPosture& posture) {
-  for (float& extension : posture.extension)
-    extension = std::clamp(extension, 0.0F, 1.0F);
+void limit_fold(BlendPosture& posture) {
+  constexpr float kFolded_rad = 1.57079633F;
+  for (float& fold_rad : posture.fold_rad) {
+    fold_rad = std::clamp(fold_rad, 0.0F, kFolded_rad);
+  }
 }
 
 template <class Rates, class Operation>
 void for_limb_values(Rates& rates, const Operation& operation) {
-  operation(rates.extension, &BlendPosture::extension, kExtensionAt, false);
+  operation(rates.fold_rad, &BlendPosture::fold_rad, kExtensionAt, false);
   operation(rates.mid_x, &BlendPosture::mid_x, kMidXAt, false);
   operation(rates.mid_y, &BlendPosture::mid_y, kMidYAt, false);
   operation(rates.upper_twist, &BlendPosture::upper_twist_rad, kUpperAt, true);
@@ -214,7 +216,7 @@ void InertialOffset::start(const BlendPosture& from,
   const auto subtract = [](const auto& a, const auto& b, auto& out) {
     for (std::size_t i = 0; i < 4; ++i) out[i] = a[i] - b[i];
   };
-  subtract(from_rates.extension, to_rates.extension, rates_.extension);
+  subtract(from_rates.fold_rad, to_rates.fold_rad, rates_.fold_rad);
   subtract(from_rates.mid_x, to_rates.mid_x, rates_.mid_x);
   subtract(from_rates.mid_y, to_rates.mid_y, rates_.mid_y);
   subtract(from_rates.upper_twist, to_rates.upper_twist, rates_.upper_twist);
@@ -262,7 +264,7 @@ void InertialOffset::step(float step_s, float half_life_s, BlendPosture& posture
   for_limb_values(rates_, [&](auto&, auto BlendPosture::*value, std::size_t at, bool) {
     for (std::size_t i = 0; i < 4; ++i) (posture.*value)[i] += values_[at + i];
   });
-  limit_extension(posture);
+  limit_fold(posture);
   posture.height_legs += values_[kHeightAt];
   posture.abdomen_share += values_[kAbdomenAt];
   posture.torso_share += values_[kTorsoAt];
@@ -276,7 +278,7 @@ void extrapolate(float step_s,
   const double decay_per_s = kLn2 / static_cast<double>(half_life_s);
   const double lost = -std::expm1(-decay_per_s * static_cast<double>(step_s));
   move_posture(rates, static_cast<float>(lost / decay_per_s), posture);
-  limit_extension(posture);
+  limit_fold(posture);
   const auto left = static_cast<float>(1.0 - lost);
   for (auto* lanes : {&rates.x, &rates.y, &rates.z}) {
     for (float& rate : *lanes) rate *= left;

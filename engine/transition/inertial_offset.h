@@ -12,7 +12,7 @@ struct PostureRates {
   BlendPosture::Rotations x{};
   BlendPosture::Rotations y{};
   BlendPosture::Rotations z{};
-  std::array<float, 4> extension{};
+  std::array<float, 4> fold_rad{};
   std::array<float, 4> mid_x{};
   std::array<float, 4> mid_y{};
   std::array<float, 4> upper_twist{};

@@ -57,7 +57,7 @@ Problem frame_problem(const BlendPosture& frame) {
     }
   }
   const std::array others{frame.height_legs, frame.abdomen_share, frame.torso_share};
-  const bool is_ok = are_plausible(frame.extension) && are_plausible(frame.mid_x) &&
+  const bool is_ok = are_plausible(frame.fold_rad) && are_plausible(frame.mid_x) &&
                      are_plausible(frame.mid_y) && are_plausible(frame.upper_twist_rad) &&
                      are_plausible(frame.lower_twist_rad) && are_plausible(others);
   if (is_ok) return std::nullopt;

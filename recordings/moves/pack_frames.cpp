@@ -92,7 +92,7 @@ std::array<BlendPosture::Rotations BlendPosture::*, 4> rotation_parts() {
 }
 
 std::array<std::array<float, 4> BlendPosture::*, 5> limb_parts() {
-  return {&BlendPosture::extension,
+  return {&BlendPosture::fold_rad,
           &BlendPosture::mid_x,
           &BlendPosture::mid_y,
           &BlendPosture::upper_twist_rad,

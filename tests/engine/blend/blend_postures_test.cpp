@@ -91,7 +91,7 @@ TEST(BlendPostures, KeepsAGroupOfOneSourceToTheBit) {
     }
     for (std::size_t i = 0; i < 4; ++i) {
       if (group_of_limb()[i] != group) continue;
-      EXPECT_EQ(out.extension[i], postures[0].extension[i]);
+      EXPECT_EQ(out.fold_rad[i], postures[0].fold_rad[i]);
       EXPECT_EQ(out.upper_twist_rad[i], postures[0].upper_twist_rad[i]);
     }
   }
@@ -110,7 +110,7 @@ TEST(BlendPostures, KeepsAGroupWithoutWeight) {
         std::span(sources).first(count), std::span(all).first(count), nullptr, out);
     EXPECT_EQ(out.height_legs, p[3].height_legs);
     EXPECT_EQ(out.y[kSegmentRotation], p[3].y[kSegmentRotation]);
-    EXPECT_NE(out.extension[0], p[3].extension[0]);
+    EXPECT_NE(out.fold_rad[0], p[3].fold_rad[0]);
   }
 }
 
@@ -130,7 +130,7 @@ TEST(BlendPostures, OfAPostureWithItselfIsItself) {
       EXPECT_NEAR(out.z[i], p.z[i], 1e-6);
       EXPECT_NEAR(out.w[i], p.w[i], 1e-6);
     }
-    EXPECT_EQ(out.extension, p.extension);
+    EXPECT_EQ(out.fold_rad, p.fold_rad);
     EXPECT_EQ(out.lower_twist_rad, p.lower_twist_rad);
     EXPECT_EQ(out.height_legs, p.height_legs);
   }

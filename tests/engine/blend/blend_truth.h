@@ -106,7 +106,7 @@ inline void randomise_values(std::mt19937& random, BlendPosture& posture) {
     return static_cast<float>(random_in(random, low, high));
   };
   for (std::size_t i = 0; i < 4; ++i) {
-    posture.extension[i] = value(0.5, 1.0);
+    posture.fold_rad[i] = value(0.5, 1.0);
     posture.mid_x[i] = value(0.0, 0.3);
     posture.mid_y[i] = value(-0.02, 0.02);
     posture.upper_twist_rad[i] = value(-1.4, 1.4);
