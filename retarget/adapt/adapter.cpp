@@ -68,25 +68,23 @@ Adapter& Adapter::operator=(Adapter&&) noexcept = default;
 Adapter::~Adapter() = default;
 
 std::optional<Adapter::Handle> Adapter::constraint(std::string_view id) {
-  const std::vector<Constraint>& all = state_->constraints.constraints;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].id == id) return Handle(*state_, i);
+  const std::vector<std::string>& ids = state_->names->constraints;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (ids[i] == id) return Handle(*state_, i);
   }
   return std::nullopt;
 }
 
 void Adapter::set_balance_target(const std::optional<glm::dvec3>& com_in_world) {
   MAREY_ASSERT(!com_in_world || is_finite(*com_in_world));
-  state_->com_in_world = com_in_world;
+  state_->member.head().com_in_world = com_in_world;
 }
 
 bool Adapter::carry(std::string_view load, bool carried) {
-  const std::vector<Load>& loads = state_->character.loads;
-  const std::size_t own = state_->character.masses.size();
+  const std::vector<std::string>& loads = state_->names->loads;
   for (std::size_t i = 0; i < loads.size(); ++i) {
-    if (loads[i].name != load) continue;
-    state_->carried[i] = carried ? 1 : 0;
-    set_mass(state_->body, own + i, carried ? loads[i].mass.mass_kg : 0.0);
+    if (loads[i] != load) continue;
+    state_->member.carry(i, carried);
     return true;
   }
   return false;
@@ -94,13 +92,14 @@ bool Adapter::carry(std::string_view load, bool carried) {
 
 void Adapter::set_options(const AdaptOptions& options) {
   MAREY_ASSERT(check_options(options).has_value());
-  MAREY_ASSERT(!state_->is_member);
+  MAREY_ASSERT(!state_->is_member());
+  MemberHead& head = state_->member.head();
   const bool replan = (options.balance == BalanceMode::kOff) !=
-                      (state_->options.balance == BalanceMode::kOff);
+                      (head.options.balance == BalanceMode::kOff);
   state_->turn_passage(options);
-  state_->options = options;
-  state_->control = options.control;
-  if (replan) state_->set_up();
+  head.options = options;
+  head.control = options.control;
+  if (replan) state_->replan();
 }
 
 AdaptReport Adapter::adapt(const Pose& reference, double time_s, Pose& out) {
@@ -108,46 +107,29 @@ AdaptReport Adapter::adapt(const Pose& reference, double time_s, Pose& out) {
 }
 
 std::span<const RigidTransform> Adapter::world_from_joint() const {
-  return state_->world_from_joint;
+  return state_->member.world_from_joint();
 }
 
 glm::dvec3 Adapter::centre_of_mass_in_world() const {
-  const AdapterState& s = *state_;
-  glm::dvec3 moment(0.0);
-  double mass_kg = 0.0;
-  const auto add = [&](const PointMass& mass) {
-    moment += mass.mass_kg * (s.world_from_joint[index(mass.joint)] * mass.p_in_joint);
-    mass_kg += mass.mass_kg;
-  };
-  for (const PointMass& mass : s.character.masses) add(mass);
-  for (std::size_t i = 0; i < s.carried.size(); ++i) {
-    if (s.carried[i]) add(s.character.loads[i].mass);
-  }
-  return moment / mass_kg;
+  return state_->member.centre_of_mass_in_world(state_->shared->plan);
 }
 
 void Adapter::Handle::set_target(const glm::dvec3& p_in_world) {
   MAREY_ASSERT(is_finite(p_in_world));
-  Goal& goal = state_->constraints.constraints[constraint_].goal;
-  if (auto* point = std::get_if<DistanceToPoint>(&goal)) {
-    point->p_in_world = p_in_world;
-    return;
-  }
-  auto* support = std::get_if<Support>(&goal);
-  MAREY_ASSERT(support != nullptr);
-  support->footprint_in_world = p_in_world;
+  MemberTarget& target = state_->member.targets()[constraint_];
+  const bool is_support = target.goal == GoalKind::kSupport;
+  MAREY_ASSERT(is_support || target.goal == GoalKind::kDistanceToPoint);
+  target.numbers.a_in_world = p_in_world;
+  if (is_support) target.is_placed = true;
 }
 
 void Adapter::Handle::set_orientation(const glm::dquat& world_from_t_pose) {
   MAREY_ASSERT(is_unit(world_from_t_pose));
-  Goal& goal = state_->constraints.constraints[constraint_].goal;
-  if (auto* orientation = std::get_if<SegmentOrientation>(&goal)) {
-    orientation->world_from_t_pose = world_from_t_pose;
-    return;
-  }
-  auto* support = std::get_if<Support>(&goal);
-  MAREY_ASSERT(support != nullptr);
-  support->world_from_t_pose = world_from_t_pose;
+  MemberTarget& target = state_->member.targets()[constraint_];
+  const bool is_support = target.goal == GoalKind::kSupport;
+  MAREY_ASSERT(is_support || target.goal == GoalKind::kOrientation);
+  target.numbers.world_from_joint = world_from_t_pose * target.t_pose_from_joint;
+  if (is_support) target.is_turned = true;
 }
 
 void Adapter::Handle::set_space(const glm::dvec3& min_in_world,
@@ -155,39 +137,39 @@ void Adapter::Handle::set_space(const glm::dvec3& min_in_world,
   MAREY_ASSERT(is_finite(min_in_world) && is_finite(max_in_world));
   MAREY_ASSERT(min_in_world.x <= max_in_world.x && min_in_world.y <= max_in_world.y &&
                min_in_world.z <= max_in_world.z);
-  Goal& goal = state_->constraints.constraints[constraint_].goal;
-  if (auto* allowed = std::get_if<AllowedSpace>(&goal)) {
-    *allowed = {min_in_world, max_in_world};
-    return;
-  }
-  auto* forbidden = std::get_if<ForbiddenSpace>(&goal);
-  MAREY_ASSERT(forbidden != nullptr);
-  *forbidden = {min_in_world, max_in_world};
+  MemberTarget& target = state_->member.targets()[constraint_];
+  MAREY_ASSERT(target.goal == GoalKind::kAllowedSpace ||
+               target.goal == GoalKind::kForbiddenSpace);
+  target.numbers.a_in_world = min_in_world;
+  target.numbers.b = max_in_world;
 }
 
 void Adapter::Handle::set_offset(const glm::dvec3& offset_in_t_pose) {
   MAREY_ASSERT(is_finite(offset_in_t_pose));
-  glm::dvec3& offset =
-      state_->constraints.constraints[constraint_].point.offset_in_t_pose;
-  const bool was_at_joint = offset == glm::dvec3(0.0);
-  offset = offset_in_t_pose;
+  MemberTarget& target = state_->member.targets()[constraint_];
+  const bool was_at_joint = target.is_at_joint;
+  target.is_at_joint = offset_in_t_pose == glm::dvec3(0.0);
+  target.numbers.in_joint = glm::conjugate(target.t_pose_from_joint) * offset_in_t_pose;
+  if (AdapterOwn* own = state_->own.get()) {
+    own->constraints.constraints[constraint_].point.offset_in_t_pose = offset_in_t_pose;
+  }
   // A point at the joint itself moves with the bone above, every other point with the
   // joint's own bone.
-  if (was_at_joint != (offset == glm::dvec3(0.0))) state_->set_up();
+  if (was_at_joint != target.is_at_joint) state_->replan();
 }
 
 void Adapter::Handle::start(double time_s) {
   MAREY_ASSERT(std::isfinite(time_s));
-  state_->live[constraint_].start(time_s);
+  state_->member.activations()[constraint_].start(time_s);
 }
 
 void Adapter::Handle::stop(double time_s) {
   MAREY_ASSERT(std::isfinite(time_s));
-  state_->live[constraint_].stop(time_s);
+  state_->member.activations()[constraint_].stop(time_s);
 }
 
 const ConstraintOutcome& Adapter::Handle::outcome() const {
-  return state_->outcomes[constraint_];
+  return state_->member.outcomes()[constraint_];
 }
 
 }  // namespace marey::retarget

@@ -3,181 +3,144 @@
 #include "retarget/adapt/adapter_state.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "core/base/assert.h"
-#include "retarget/constraints/activation.h"
-#include "retarget/constraints/measure_constraint.h"
 
 namespace marey::retarget {
 namespace {
 
-/// Reads the result of store_result().
-class ResultReader {
+static_assert(kHomingSteps == kFirstSteps && kHomingStepsBalanced == kFirstStepsBalanced);
+
+/// The only job of an adapter, with or without fading constraints.
+class OneJob final : public LaneJobs, public FadeJobs {
  public:
-  explicit ResultReader(const float* from) : from_(from) {}
-  [[nodiscard]] const float* here() const { return from_; }
-  double number() { return static_cast<double>(*from_++); }
-  glm::dvec3 vector() {
-    const double x = number();
-    const double y = number();
-    return {x, y, number()};
+  OneJob(const SharedPlan& shared,
+         const Member& member,
+         PackedProblem& problem,
+         Pose& out)
+      : shared_(shared), member_(member), problem_(problem), out_(out) {}
+
+  [[nodiscard]] bool next(LaneJob& job) override {
+    if (is_taken_) return false;
+    is_taken_ = true;
+    job = {member_.numbers().data(),
+           problem_.posture.data(),
+           problem_.targets.data(),
+           problem_.balance.data(),
+           0};
+    return true;
   }
-  glm::dquat rotation() {
-    const double w = number();
-    const double x = number();
-    const double y = number();
-    return unit_rotation(w, x, y, number());
+  void answer(int, const float* result) override {
+    member_.write(shared_.plan, result, out_);
+  }
+  void postpone(int) override {}
+  void answer_faded(int, const float* result) override { answer(0, result); }
+
+  [[nodiscard]] LaneTask task(int pass) override {
+    const MemberHead& head = member_.head();
+    return task_of(shared_, head.options, fade_pass(head, problem_, pass).control);
+  }
+  [[nodiscard]] bool next(int, LaneJob& job) override { return next(job); }
+  [[nodiscard]] int passes(int) override {
+    return fade_pass_count(member_.head(), problem_);
+  }
+  [[nodiscard]] Pass pass(int, int number) override {
+    const FadePass pass = fade_pass(member_.head(), problem_, number);
+    pack_pass(shared_.plan, member_, pass, problem_);
+    return {problem_.targets.data(), pass.share};
+  }
+  [[nodiscard]] Mean mean(int) override {
+    pack_mean(shared_.plan, member_, problem_);
+    return {problem_.targets.data(), problem_.firmness.data()};
   }
 
  private:
-  const float* from_;
+  const SharedPlan& shared_;
+  const Member& member_;
+  PackedProblem& problem_;
+  Pose& out_;
+  bool is_taken_ = false;
 };
-
-static_assert(kHomingSteps == kFirstSteps && kHomingStepsBalanced == kFirstStepsBalanced);
 
 }  // namespace
 
-AdapterState::AdapterState(const Character& character_in,
-                           const ConstraintSet& constraints_in,
-                           const AdaptOptions& options_in)
-    : character(character_in),
-      constraints(constraints_in),
-      options(options_in),
-      carried(character.loads.size(), 0),
-      own_problem(plan),
-      lanes(Plan{}) {
-  for (const Constraint& c : constraints.constraints) live.emplace_back(c.activation);
-  set_up();
-}
+AdapterWork::AdapterWork(const Plan& plan)
+    : kernel(make_scalar_kernel(plan)), problem(plan) {}
 
-void AdapterState::set_up() {
-  MAREY_ASSERT(!is_member);
-  control = options.control;
-  plan = make_plan(character, constraints, options.balance != BalanceMode::kOff);
-  body = body_numbers(character, plan);
-  for (std::size_t i = 0; i < carried.size(); ++i) {
-    if (!carried[i]) set_mass(body, character.masses.size() + i, 0.0);
-  }
-  t_pose_from_joint = t_pose_rotations(character);
-  lanes = Lanes<float>(plan);
-  thesis = {make_thesis_plan(plan), options.balance != BalanceMode::kOff};
-  solve = {};
-  mixed_rotation.assign(plan.parent.size(), identity<float>());
-  mixed_beyond.assign(plan.parent.size(), 0.0F);
-  mixed_left.assign(plan.points.size(), {});
-  firmness.assign(plan.points.size(), 0.0F);
-  own_problem = PackedProblem(plan);
-  outcomes.assign(constraints.constraints.size(), {});
-  begun_in_world.resize(constraints.constraints.size());
-  begun_rotation.resize(constraints.constraints.size());
-  world_from_joint.resize(plan.parent.size());
-  result.assign(result_size(plan), 0.0F);
-}
+MembersStore::MembersStore(const SharedPlan& shared, std::size_t count)
+    : blocks(count * shared.layout.bytes), work(shared.plan) {}
 
-Shape AdapterState::shape() const {
-  Shape out;
-  out.rows.balance = options.balance != BalanceMode::kOff;
-  for (const PointPlan& point : plan.points) {
-    if (point.goal == GoalKind::kSupport) ++out.rows.supports;
-  }
-  // A blend solves all levels together, by their weights.
-  out.by_level = control == Control::kPriority;
-  out.last_level = std::max(1, plan.level_count);
-  return out;
-}
-
-SolveSettings AdapterState::settings() const {
-  SolveSettings out;
-  out.blend = control == Control::kBlend;
-  out.keeps_orientation = options.extremities_keep_orientation;
-  out.max_iterations = options.max_iterations;
-  return out;
-}
-
-void AdapterState::solve_for(double min_activation, LaneFigures<float>& figures) {
-  pack_problem(min_activation, own_problem);
-  load_targets(plan, own_problem.targets.data(), 0, lanes);
-  const Shape form = shape();
-  const SolveSettings solve_settings = settings();
-  const auto add = [&](const Errors<float>& errors) {
-    figures.iterations += solve.progress.iterations;
-    figures.capped = std::max(figures.capped, solve.progress.capped);
-    figures.balance = errors.balance;
-  };
-  if (options.method == Method::kThesis) {
-    begin_thesis(plan, thesis, solve_settings, true, lanes, solve);
-    while (!advance_thesis(plan, thesis, solve_settings, lanes, solve)) {
-    }
-    add(finish_thesis(plan, thesis, solve_settings, true, lanes, solve));
+void adapt_member(const SharedPlan& shared,
+                  const Member& member,
+                  const Pose& reference,
+                  double time_s,
+                  Pose& out,
+                  AdapterWork& work) {
+  const bool fades =
+      !prepare_member(shared.plan, member, reference, time_s, work.problem);
+  OneJob job(shared, member, work.problem, out);
+  if (fades) {
+    static_cast<void>(work.kernel->fade(job));
     return;
   }
-  begin_lanes(plan, form, solve_settings, true, lanes, solve);
-  if (solve.needs_body > 0.0F) {
-    while (!advance_lanes(plan, form, solve_settings, lanes, solve)) {
-    }
-  }
-  add(finish_lanes(plan, form, solve_settings, true, lanes, solve));
+  const MemberHead& head = member.head();
+  work.kernel->solve(task_of(shared, head.options, head.control), job);
 }
 
-void AdapterState::update_report(const Plan& shared, const float* errors) {
-  report = {};
-  double weights = 0.0;
-  for (std::size_t k = 0; k < shared.points.size(); ++k) {
-    const PointPlan& point = shared.points[k];
-    const auto c = static_cast<std::size_t>(point.constraint);
-    const Constraint& constraint = constraints.constraints[c];
-    ConstraintOutcome& outcome = outcomes[c];
-    const auto error = static_cast<double>(errors[k]);
-    const bool counts = outcome.activation > kFirmActivation;
-    outcome.error_m = 0.0;
-    outcome.error_rad = 0.0;
-    if (point.turns_only()) {
-      // turn_left() returns twice the sine of half the angle.
-      outcome.error_rad = 2.0 * std::asin(std::min(1.0, 0.5 * error));
-    } else {
-      outcome.error_m = error * body.unit_m;
-    }
-    outcome.met = counts && is_met(constraint, {outcome.error_m, outcome.error_rad});
-    report.worst_error_m = std::max(report.worst_error_m, outcome.error_m);
-    report.worst_error_rad = std::max(report.worst_error_rad, outcome.error_rad);
-    if (!counts || point.turns_only() || point.level == 0) continue;
-    report.constraint_error_m += constraint.importance * outcome.error_m;
-    weights += constraint.importance;
-  }
-  if (weights > 0.0) report.constraint_error_m /= weights;
+AdapterState::AdapterState(const Character& character,
+                           const ConstraintSet& constraints,
+                           const AdaptOptions& options)
+    : shared(
+          make_shared_plan(character, constraints, options.balance != BalanceMode::kOff)),
+      names(make_names(character, constraints)),
+      own(new AdapterOwn{character,
+                         constraints,
+                         MemberMemory(shared->layout.bytes),
+                         AdapterWork(shared->plan)}) {
+  member = Member(own->block.get(), shared->layout);
+  begin_member(*shared, character, constraints, options, member);
 }
 
-void AdapterState::write(const Plan& shared, const float* numbers, Pose& out) {
-  const std::size_t n = shared.parent.size();
-  out.parent_from_joint.resize(n);
-  ResultReader from(numbers);
-  for (std::size_t i = 0; i < n; ++i) out.parent_from_joint[i] = from.rotation();
-  for (std::size_t i = 0; i < n; ++i) world_from_joint[i].rotation = from.rotation();
-  for (std::size_t i = 0; i < n; ++i) {
-    world_from_joint[i].translation = origin_in_world + from.vector() * body.unit_m;
+void AdapterState::turn_passage(const AdaptOptions& to) {
+  MemberHead& head = member.head();
+  if (to.control != head.options.control) {
+    head.left_control = head.options.control;
+    // The ramp is symmetric, so the share is unchanged.
+    head.passed = 1.0 - head.passed;
+  } else if (to.control_change_s == head.options.control_change_s) {
+    return;
   }
-  update_report(shared, from.here());
-  for (std::size_t k = 0; k < shared.points.size(); ++k) from.number();
-  report.iterations = static_cast<int>(from.number());
-  report.capped = from.number() > 0.0;
-  report.balance_error_m = from.number() * body.unit_m;
-  out.root_in_world = world_from_joint[0].translation;
+  head.passes_since_s.reset();
+}
+
+void AdapterState::replan() {
+  MAREY_ASSERT(!is_member());
+  shared = make_shared_plan(own->character,
+                            own->constraints,
+                            member.head().options.balance != BalanceMode::kOff);
+  own->work = AdapterWork(shared->plan);
+  // The arrays keep their sizes: they depend on the body and the count of constraints.
+  member = Member(own->block.get(), shared->layout);
+  replan_member(*shared, own->character, member);
 }
 
 AdaptReport AdapterState::adapt(const Pose& reference, double time_s, Pose& out) {
-  const bool fades = !prepare(reference, time_s, own_problem);
-  stand(own_problem);
-  LaneFigures<float> figures;
-  if (fades) {
-    solve_faded(figures);
-  } else {
-    solve_for(1.0, figures);
-  }
-  spread_posture(plan, lanes);
-  store_result(plan, figures, 0, lanes, result.data());
-  write(plan, result.data(), out);
-  return report;
+  adapt_member(*shared, member, reference, time_s, out, own ? own->work : store->work);
+  return member.head().report;
+}
+
+void AdapterState::join(const AdapterState& first,
+                        const std::shared_ptr<MembersStore>& all,
+                        std::size_t place) {
+  const std::size_t bytes = shared->layout.bytes;
+  std::byte* block = all->blocks.get() + place * bytes;
+  std::copy_n(member.block(), bytes, block);
+  if (*names == *first.names) names = first.names;
+  shared = first.shared;
+  member = Member(block, shared->layout);
+  store = all;
+  own.reset();
 }
 
 }  // namespace marey::retarget

@@ -40,13 +40,17 @@ ConstraintMeasure::ConstraintMeasure(const Character& character,
   }
 }
 
-bool is_met(const Constraint& constraint, const Shortfall& shortfall) {
+double max_met_error(const Constraint& constraint) {
   if (std::holds_alternative<SegmentOrientation>(constraint.goal)) {
-    return shortfall.rad <= (constraint.precision_m + kMeasured_m) / kLever_m;
+    return (constraint.precision_m + kMeasured_m) / kLever_m;
   }
   const bool support = std::holds_alternative<Support>(constraint.goal);
-  return shortfall.m <=
-         (support ? kSupportPrecision_m : constraint.precision_m) + kMeasured_m;
+  return (support ? kSupportPrecision_m : constraint.precision_m) + kMeasured_m;
+}
+
+bool is_met(const Constraint& constraint, const Shortfall& shortfall) {
+  const bool turns = std::holds_alternative<SegmentOrientation>(constraint.goal);
+  return (turns ? shortfall.rad : shortfall.m) <= max_met_error(constraint);
 }
 
 Shortfall ConstraintMeasure::shortfall(std::span<const RigidTransform> world_from_joint,

@@ -50,6 +50,10 @@ inline constexpr double kMeasured_m = 2e-5;
 /// (retarget/constraints/constraint_targets.h): 1 mm is 0.01 rad.
 [[nodiscard]] bool is_met(const Constraint& constraint, const Shortfall& shortfall);
 
+/// Returns the largest error for which is_met() returns true: [rad] for an orientation,
+/// [m] for all others.
+[[nodiscard]] double max_met_error(const Constraint& constraint);
+
 /// Measures errors of postures of one character for one constraint, by the formulas of
 /// targets_of() alone, independent of the solver.
 class ConstraintMeasure {

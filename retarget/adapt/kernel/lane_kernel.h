@@ -48,6 +48,38 @@ class LaneJobs {
   virtual void postpone(int number) = 0;
 };
 
+/// Source of the jobs of bodies whose constraints fade, in batches of one body per lane.
+class FadeJobs {
+ public:
+  /// One solve of a body.
+  struct Pass {
+    const float* targets = nullptr;
+    float share = 0.0F;  ///< Weight of its posture in the mean.
+  };
+  /// Targets that the mean posture is closed on.
+  struct Mean {
+    const float* targets = nullptr;
+    const float* firmness = nullptr;  ///< FadeSums::firmness.
+  };
+  FadeJobs() = default;
+  FadeJobs(const FadeJobs&) = delete;
+  FadeJobs& operator=(const FadeJobs&) = delete;
+  virtual ~FadeJobs() = default;
+  /// Returns the inputs common to all bodies in a pass.
+  [[nodiscard]] virtual LaneTask task(int pass) = 0;
+  /// Gets the next body, for a lane of the batch; returns false if there are no more.
+  /// Numbers are valid until the next call.
+  [[nodiscard]] virtual bool next(int lane, LaneJob& job) = 0;
+  /// Returns the number of passes of the body in a lane.
+  [[nodiscard]] virtual int passes(int lane) = 0;
+  /// Returns one of its passes, valid until the next call.
+  [[nodiscard]] virtual Pass pass(int lane, int number) = 0;
+  [[nodiscard]] virtual Mean mean(int lane) = 0;
+  /// Receives the result of a lane in the form of store_result(), valid until the next
+  /// call.
+  virtual void answer_faded(int lane, const float* result) = 0;
+};
+
 /// Solves jobs in parallel, one per lane. The result of a job is independent of its lane,
 /// of the other lanes and of the width, to the bit.
 class LaneKernel {
@@ -63,6 +95,8 @@ class LaneKernel {
   virtual void sift(const LaneTask& task, LaneJobs& jobs) = 0;
   /// Solves all jobs. Otherwise like sift().
   virtual void solve(const LaneTask& task, LaneJobs& jobs) = 0;
+  /// Solves one batch of bodies whose constraints fade. Returns false if there is none.
+  virtual bool fade(FadeJobs& jobs) = 0;
 };
 
 /// Create kernels for 1, 4, 8 and 16 bodies in parallel. nullptr: not built for this

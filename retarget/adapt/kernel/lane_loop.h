@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "retarget/adapt/kernel/adapt_load.h"
+#include "retarget/adapt/kernel/fade_loop.h"
 #include "retarget/adapt/kernel/lane_kernel.h"
 #include "retarget/adapt/kernel/lane_result.h"
 
@@ -16,7 +17,8 @@ namespace marey::retarget {
 template <class F, int Width>
 class LaneLoop final : public LaneKernel {
  public:
-  explicit LaneLoop(const Plan& plan) : lanes_(plan), result_(result_size(plan)) {
+  explicit LaneLoop(const Plan& plan)
+      : lanes_(plan), sums_(plan), result_(result_size(plan)) {
     job_.fill(-1);
   }
   [[nodiscard]] int width() const override { return Width; }
@@ -45,6 +47,10 @@ class LaneLoop final : public LaneKernel {
       finish(task, done, jobs);
       if ((fill || any(done)) && running_ > 0) go_on(task);
     }
+  }
+
+  bool fade(FadeJobs& jobs) override {
+    return FadeLoop<F, Width>(jobs, lanes_, solve_, sums_).run(result_.data());
   }
 
  private:
@@ -130,6 +136,7 @@ class LaneLoop final : public LaneKernel {
 
   Lanes<F> lanes_;
   Solve<F> solve_;
+  FadeSums<F> sums_;
   F runs_ = num<F>(0);
   std::vector<float> result_;
   std::array<int, Width> job_{};

@@ -89,12 +89,16 @@ std::vector<glm::dquat> t_pose_rotations(const Character& character) {
   return out;
 }
 
+std::size_t body_number_count(const Plan& plan) {
+  return 3 * plan.parent.size() + 3 * plan.limbs.size() + 14 * plan.limited.size() +
+         4 * plan.masses.size() + 2;
+}
+
 BodyNumbers body_numbers(const Character& character, const Plan& plan) {
   BodyNumbers body;
   body.unit_m = unit_of(character.skeleton, plan);
   const double per_unit = 1.0 / body.unit_m;
-  body.packed.resize(3 * plan.parent.size() + 3 * plan.limbs.size() +
-                     14 * character.limits.size() + 4 * plan.masses.size() + 2);
+  body.packed.resize(body_number_count(plan));
   const std::vector<glm::dquat> t_pose = t_pose_rotations(character);
   Packer pack(body.packed);
   for (const Joint& joint : character.skeleton.joints) {
@@ -128,10 +132,6 @@ BodyNumbers body_numbers(const Character& character, const Plan& plan) {
   return body;
 }
 
-void set_mass(BodyNumbers& body, std::size_t index, double mass_kg) {
-  body.packed[body.masses_at + 4 * index] = static_cast<float>(mass_kg);
-}
-
 void pack_posture(const Pose& pose, std::span<float> out) {
   MAREY_ASSERT(out.size() == 4 * pose.parent_from_joint.size());
   Packer pack(out);
@@ -139,12 +139,12 @@ void pack_posture(const Pose& pose, std::span<float> out) {
 }
 
 void pack_targets(const Plan& plan,
-                  const BodyNumbers& body,
+                  double unit_m,
                   const glm::dvec3& origin_in_world,
                   std::span<const TargetNumbers> targets,
                   std::span<float> out) {
   MAREY_ASSERT(out.size() == kNumbersPerTarget * targets.size());
-  const double per_unit = 1.0 / body.unit_m;
+  const double per_unit = 1.0 / unit_m;
   Packer pack(out);
   for (std::size_t k = 0; k < targets.size(); ++k) {
     const TargetNumbers& target = targets[k];
@@ -161,7 +161,7 @@ void pack_targets(const Plan& plan,
   }
 }
 
-void pack_balance(const BodyNumbers& body,
+void pack_balance(double unit_m,
                   const glm::dvec3& origin_in_world,
                   const BalanceNumbers& balance,
                   std::span<float> out) {
@@ -169,13 +169,13 @@ void pack_balance(const BodyNumbers& body,
   Packer pack(out);
   pack.put(balance.wanted);
   pack.put(balance.vertical);
-  pack.put(std::max(balance.precision_m / body.unit_m, 2e-6));
+  pack.put(std::max(balance.precision_m / unit_m, 2e-6));
   pack.put(balance.root_weight);
   pack.put(balance.root_weight_on_floor);
   pack.put(balance.from_reference);
-  pack.put((balance.com_in_world - origin_in_world) / body.unit_m);
-  pack.put(balance.constraint_threshold_m / body.unit_m);
-  pack.put(balance.balance_threshold_m / body.unit_m);
+  pack.put((balance.com_in_world - origin_in_world) / unit_m);
+  pack.put(balance.constraint_threshold_m / unit_m);
+  pack.put(balance.balance_threshold_m / unit_m);
 }
 
 }  // namespace marey::retarget

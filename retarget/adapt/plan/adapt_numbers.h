@@ -19,15 +19,16 @@ struct BodyNumbers {
   double unit_m = 1.0;  ///< Length of a leg; without legs of a limb; without limbs of the
                         ///< longest chain.
   std::vector<float> packed;
-  /// Index of the first mass in `packed`. Only masses change, when a load is picked up.
+  /// Index of the first mass in `packed`: 4 numbers per element of Plan::masses, the mass
+  /// in kilograms first. Only masses change, when a load is picked up.
   std::size_t masses_at = 0;
 };
 
+/// Returns the count of the constants of a body with this plan.
+[[nodiscard]] std::size_t body_number_count(const Plan& plan);
+
 /// Packs the constants of a character. Precondition: as make_plan().
 [[nodiscard]] BodyNumbers body_numbers(const Character& character, const Plan& plan);
-
-/// Sets the mass with this index in Plan::masses.
-void set_mass(BodyNumbers& body, std::size_t index, double mass_kg);
 
 /// Returns the world rotation of each joint's frame in the T-pose
 /// (Character::t_pose_from_joint).
@@ -52,12 +53,19 @@ struct TargetNumbers {
 
 inline constexpr std::size_t kNumbersPerTarget = 17;
 
-/// Packs targets. `targets` has the order of Plan::points.
+/// Packs targets. `targets` has the order of Plan::points. `unit_m` is that of the body.
 void pack_targets(const Plan& plan,
-                  const BodyNumbers& body,
+                  double unit_m,
                   const glm::dvec3& origin_in_world,
                   std::span<const TargetNumbers> targets,
                   std::span<float> out);
+inline void pack_targets(const Plan& plan,
+                         const BodyNumbers& body,
+                         const glm::dvec3& origin_in_world,
+                         std::span<const TargetNumbers> targets,
+                         std::span<float> out) {
+  pack_targets(plan, body.unit_m, origin_in_world, targets, out);
+}
 
 struct BalanceNumbers {
   bool wanted = false;
@@ -76,9 +84,15 @@ struct BalanceNumbers {
 
 inline constexpr std::size_t kBalanceNumbers = 11;
 
-void pack_balance(const BodyNumbers& body,
+void pack_balance(double unit_m,
                   const glm::dvec3& origin_in_world,
                   const BalanceNumbers& balance,
                   std::span<float> out);
+inline void pack_balance(const BodyNumbers& body,
+                         const glm::dvec3& origin_in_world,
+                         const BalanceNumbers& balance,
+                         std::span<float> out) {
+  pack_balance(body.unit_m, origin_in_world, balance, out);
+}
 
 }  // namespace marey::retarget
