@@ -152,16 +152,7 @@ void blend_two(const Blended& blended, BlendSides& sides, BlendPosture& out) {
   }
   const BlendPosture& a = *blended.sources[0];
   const BlendPosture& b = *blended.sources[1];
-  const bool has_all = *std::min_element(at.begin(), at.end()) >= 0.0F;
-  if (has_all && have_short_arcs(a, b)) {
-    // Unknown sides mean the shorter arcs at the next step, too.
-    blend_short_arcs(a, b, lane_at, out);
-    sides.is_known = false;
-  } else {
-    // Sides of the first source: the shorter arcs decide.
-    if (!sides.is_known) set_sides(a, sides);
-    blend_two_rotations(a, b, lane_at, sides, out);
-  }
+  blend_two_rotations(a, b, lane_at, sides, out);
   blend_two_values(a, b, at, out);
 }
 
@@ -192,6 +183,8 @@ void blend_counted(Blended& blended, BlendSides& sides, BlendPosture& out) {
     return;
   }
   if (blended.count == 1) blended.sources[1] = blended.sources[0];
+  // Sides of the first source: the shorter arcs decide.
+  if (!sides.is_known) set_sides(*blended.sources[0], sides);
   blend_two(blended, sides, out);
 }
 

@@ -175,35 +175,6 @@ void interpolate_rotations(const BlendPosture& a,
   }
 }
 
-bool have_short_arcs(const BlendPosture& a, const BlendPosture& b) {
-  LaneMask is_long = 0;
-  for (std::size_t i = 0; i < kPostureRotations; ++i) {
-    const float dot = lane_dot(lane(a, i), lane(b, i));
-    is_long |= lane_mask(dot * dot < kMinKeptCosine * kMinKeptCosine);
-  }
-  return is_long == 0;
-}
-
-void blend_short_arcs(const BlendPosture& a,
-                      const BlendPosture& b,
-                      const LanePlaces& at,
-                      BlendPosture& __restrict out) {
-  for (std::size_t i = 0; i < kPostureRotations; ++i) {
-    const LaneQuat p = lane(a, i);
-    const LaneQuat q = lane(b, i);
-    const float dot = lane_dot(p, q);
-    const float sign = std::copysign(1.0F, dot);
-    const SlerpWeights w = slerp_weights(squared_angle(1.0F - sign * dot), at[i]);
-    const LaneMask is_far = lane_mask(at[i] > 0.5F);
-    const float of_p = lane_select(is_far, sign, 1.0F);
-    const float of_q = lane_select(is_far, 1.0F, sign);
-    const LaneQuat mean =
-        nearly_unit(weighted_sum(of_p * w.first, p, of_q * w.second, q));
-    const LaneQuat far_end = select_lane(lane_mask(at[i] == 1.0F), q, mean);
-    store_lane(select_lane(lane_mask(at[i] == 0.0F), p, far_end), i, out);
-  }
-}
-
 void blend_two_rotations(const BlendPosture& a,
                          const BlendPosture& b,
                          const LanePlaces& at,

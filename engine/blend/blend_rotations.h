@@ -30,17 +30,6 @@ void blend_two_rotations(const BlendPosture& a,
                          BlendSides& sides,
                          BlendPosture& out);
 
-/// Whether all rotations of two postures are less than 120 degrees apart: their sides do
-/// not depend on the step before.
-[[nodiscard]] bool have_short_arcs(const BlendPosture& a, const BlendPosture& b);
-
-/// Blends rotations on their shorter arcs. Precondition: have_short_arcs(); places in
-/// [0, 1].
-void blend_short_arcs(const BlendPosture& a,
-                      const BlendPosture& b,
-                      const LanePlaces& at,
-                      BlendPosture& out);
-
 /// Weights of up to kMaxBlended postures per rotation, with their sum.
 struct LaneWeights {
   std::array<BlendPosture::Rotations, kMaxBlended> of_source;
