@@ -59,7 +59,7 @@ class Engine {
   [[nodiscard]] Result<ActionId> play(CharacterId character, const ActionWish& wish);
   /// Fades an action out, or takes a waiting one back. Error: it is over or unknown.
   [[nodiscard]] Status stop(CharacterId character, ActionId action);
-  /// Fades out all actions of a layer; nullopt: of all layers.
+  /// Fades out all actions of a layer; nullopt means all layers.
   [[nodiscard]] Status stop_all(CharacterId character, std::optional<int> layer = {});
 
   /// Moves all characters on by this many steps. Precondition: steps >= 0.

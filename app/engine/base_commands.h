@@ -17,8 +17,8 @@ namespace marey::app {
 /// Arguments of the commands of `marey base`.
 struct BaseArguments {
   BaseInputs inputs;
-  std::filesystem::path out;   ///< Of `build`.
-  std::filesystem::path file;  ///< Of `list` and `check`.
+  std::filesystem::path out;   ///< For `build`.
+  std::filesystem::path file;  ///< For `list` and `check`.
   bool json = false;
 };
 

@@ -104,7 +104,7 @@ Result<SteeredClip> make_steered(const fs::path& file, const std::string& name) 
       engine::make_rig(source.motion.skeleton, source.map), *clip, *travel};
 }
 
-/// Whether a foot bears, and the time until that changes. [s]
+/// True if a foot bears, and the time until that changes. [s]
 std::pair<bool, double> bearing(const MotionClip& clip, std::size_t foot, double clip_s) {
   constexpr double kFine_s = 1.0 / 960.0;
   const unsigned bits = 3U << (2 * foot);

@@ -49,10 +49,10 @@ struct MotionClip {
   /// Constraints of the document. Places are in the clip's own world, in metres of its
   /// body.
   ConstraintSet constraints;
-  float leg_length_m = 0.0F;    ///< Of the body that it was made on.
+  float leg_length_m = 0.0F;    ///< For the body that it was made on.
   std::string body;             ///< Name of that body; may be empty.
-  std::string document_sha256;  ///< Of the motion's file, 64 hexadecimal digits.
-  std::string recipe_sha256;    ///< Of its recipe; empty: it has none.
+  std::string document_sha256;  ///< For the motion's file, 64 hexadecimal digits.
+  std::string recipe_sha256;    ///< Recipe's sum; empty without a recipe.
 
   [[nodiscard]] double duration_s() const {
     return frames.size() < 2

@@ -46,7 +46,7 @@ struct SceneReach {
   /// Direction of the hand's motion at arrival, in the world; unit length. nullopt: the
   /// clip's.
   std::optional<glm::dvec3> approach_in_world{};
-  std::optional<glm::dquat> world_from_t_pose{};  ///< Of the hand at arrival.
+  std::optional<glm::dquat> world_from_t_pose{};  ///< For the hand at arrival.
   double arrival_speed_m_s = 0.0;
   std::optional<double> arrive_s{};  ///< Time from start to arrival; nullopt: the clip's.
   bool holds = false;  ///< Stays on the target without an end, instead of returning.
@@ -58,7 +58,7 @@ struct SceneThrow {
   SceneHand hand = SceneHand::kRight;
   /// Wrist at release, in the heading frame of the hips: left, up, forward. [m]
   std::array<std::optional<double>, 3> place_m{};
-  std::optional<double> azimuth_rad{};  ///< Of the ball; 0 ahead, positive to the left.
+  std::optional<double> azimuth_rad{};  ///< For the ball; 0 ahead, positive to the left.
   std::optional<double> elevation_rad{};
   std::optional<double> speed_m_s{};
   std::optional<double> release_s{};  ///< Time from start to release.

@@ -32,7 +32,7 @@ class ActionTimes {
 
   std::vector<ActionTime> compute() {
     pass();
-    // Stops shorten the actions, which may shorten those that wait for them.
+    // Stops shorten the actions, which may shorten others that wait for them.
     for (std::size_t k = 0; k < scene_.script.size(); ++k) apply_stop(k);
     pass();
     return times_;
@@ -46,7 +46,7 @@ class ActionTimes {
   }
 
   void compute(std::size_t k) {
-    // From the action that waits for none to the one that is asked for.
+    // From the first action of the chain to the last one.
     std::vector<std::size_t> chain;
     for (std::optional<std::size_t> at = k; at && !done_[*at];) {
       MAREY_ASSERT(chain.size() <= scene_.script.size());

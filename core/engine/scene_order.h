@@ -47,7 +47,7 @@ struct DependencyCycle {
   std::vector<SceneDependency> links{};
 };
 
-/// Returns the earliest cycle; nullopt: there is none at any time. Linear in
+/// Returns the earliest cycle; nullopt without a cycle. Linear in
 /// dependencies if they have no cycle when all are active; else times the number of
 /// different starts.
 [[nodiscard]] std::optional<DependencyCycle> find_cycle(

@@ -18,7 +18,7 @@ enum class ThrowParameter {
   kPlaceLeft,     ///< Wrist at release, heading frame of the hips. [m]
   kPlaceUp,       ///< [m]
   kPlaceForward,  ///< [m]
-  kAzimuth,       ///< Of the ball; positive to the left. [degrees]
+  kAzimuth,       ///< For the ball; positive to the left. [degrees]
   kElevation,     ///< [degrees]
   kSpeed,         ///< [m/s]
   kRelease,       ///< Time from start to release. [s]

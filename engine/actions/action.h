@@ -97,7 +97,7 @@ struct Action {
   bool loops = false;
   bool replaces = true;
   ActionStart::Kind start = ActionStart::Kind::kNow;
-  double start_s = 0.0;  ///< kAtTime; of the event in the other clip for kAtEvent.
+  double start_s = 0.0;  ///< For kAtTime; for kAtEvent the time of the event in the other clip.
   ActionId after{};
   TransitionKind transition = TransitionKind::kAuto;
   std::optional<double> entry_s{};
@@ -120,7 +120,7 @@ struct Action {
 /// Maximum number of actions that a character blends; a further one ends the least
 /// important one, whose difference decays.
 inline constexpr std::size_t kMaxAlive = 4;
-/// Maximum number of actions of a character, those that wait included.
+/// Maximum number of actions of a character, with the waiting ones.
 inline constexpr std::size_t kMaxActions = 16;
 
 }  // namespace marey::engine

@@ -118,7 +118,7 @@ double largest_angle_rad(const BlendPosture& a, const BlendPosture& b) {
   return worst;
 }
 
-// Closes a loop exactly, or says that it is none.
+// Closes a loop exactly, or returns an error if it is open.
 std::optional<Error> close_loop(const ClipSource& source, MotionClip& clip) {
   const BlendPosture& first = clip.frames.front();
   BlendPosture& last = clip.frames.back();

@@ -20,7 +20,7 @@ namespace marey::engine {
 struct ClipSource {
   std::string name;
   Motion motion;
-  retarget::BodyMap map;  ///< Of the motion's skeleton.
+  retarget::BodyMap map;  ///< For the motion's skeleton.
   Contacts contacts;      ///< One contact frame per pose.
   Annotations annotations;
   ConstraintSet constraints;

@@ -28,13 +28,13 @@ class MotionBase {
   [[nodiscard]] const PostureLayout& layout() const { return moves_.layout; }
   [[nodiscard]] std::span<const MotionClip> clips() const { return moves_.clips; }
   [[nodiscard]] const MotionClip& clip(std::size_t i) const { return moves_.clips[i]; }
-  /// Position of the clip of that name; nullopt: there is none. Logarithmic.
+  /// Position of the clip of that name; nullopt if unknown. Logarithmic.
   [[nodiscard]] std::optional<std::size_t> find(std::string_view name) const;
   /// Phases of a clip, without those below 40 ms.
   [[nodiscard]] std::span<const Phase> phases(std::size_t clip) const {
     return phases_[clip];
   }
-  /// Whether a clip has contacts.
+  /// True if a clip has contacts.
   [[nodiscard]] bool has_contacts(std::size_t clip) const;
 
  private:

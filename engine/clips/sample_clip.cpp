@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kTurn_rad = 2.0 * 3.14159265358979323846;
 
-// A time of a clip as frames before and after it. Of a clip that loops, in its first
+// A time of a clip as frames before and after it. For a clip that loops, in its first
 // cycle, with the number of whole cycles before.
 struct FrameTime {
   std::size_t frame = 0;  ///< At most the last but one.

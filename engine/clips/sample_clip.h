@@ -18,8 +18,8 @@ struct RootPlace {
   double heading_rad = 0.0;  ///< Not wrapped: 0 faces +Z, positive turns towards +X.
 };
 
-/// Returns the place in a clip [legs as metres]; of a clip that loops at any time, with
-/// the path of its cycles; of another one clamped to its ends.
+/// Returns the place in a clip [legs as metres]. A clip that loops has one at any time,
+/// with the path of its cycles; the time of another one is clamped to its ends.
 [[nodiscard]] RootPlace path_at(const MotionClip& clip, double time_s);
 
 /// Returns `to` seen from `from`: the displacement in from's heading frame, and the turn.

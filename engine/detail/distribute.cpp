@@ -82,7 +82,7 @@ DetailBudget::Ladder DetailBudget::make_ladder(int min_level, int max_level) con
         const double gain = value(candidate) - value(last);
         if (units <= 0.0 || gain <= 0.0) continue;
         const double per_unit = gain / units;
-        // Of equal gains per unit the cheaper detail: smaller upgrades fit more often.
+        // For equal gains per unit the cheaper detail: smaller upgrades fit more often.
         const bool is_equal = best != nullptr && per_unit == best_gain;
         if (per_unit > best_gain ||
             (is_equal && cost_units(candidate) < cost_units(*best))) {

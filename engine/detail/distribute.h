@@ -107,7 +107,7 @@ class DetailBudget {
     double gain_per_unit = 0.0;
     std::size_t request = 0;
     std::uint32_t id = 0;
-    std::uint8_t step = 0;  // Of the ladder, after the upgrade.
+    std::uint8_t step = 0;  // For the ladder, after the upgrade.
   };
 
   explicit DetailBudget(const DetailOptions& options);

@@ -44,7 +44,7 @@ class LevelFade {
   [[nodiscard]] double balance() const { return activation(2); }
   [[nodiscard]] double dynamics() const { return activation(3); }
 
-  /// Whether a step is computed rather than interpolated. The steps of characters with
+  /// True if a step is computed rather than interpolated. The steps of characters with
   /// different ids are spread evenly. During a fade each step is.
   [[nodiscard]] bool is_due(std::uint64_t step, std::uint32_t id) const;
 

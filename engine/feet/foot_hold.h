@@ -58,7 +58,7 @@ class FootHold {
              double step_s,
              const FootHoldOptions& options);
 
-  /// Whether the foot stands now.
+  /// True if the foot stands now.
   [[nodiscard]] bool holds() const { return mode_ != Mode::kFree; }
 
  private:

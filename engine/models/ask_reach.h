@@ -30,7 +30,7 @@ struct ReachLengths {
 struct ReachShare {
   double lean_rad = 0.35;        ///< Trunk, about the hips, in any direction.
   double step_legs = 0.05;       ///< Hips, in any direction. [legs]
-  double max_extension = 0.999;  ///< Of the arm.
+  double max_extension = 0.999;  ///< For the arm.
   /// Angle of the elbow that is bent furthest; 0 would be the forearm on the upper arm.
   double min_elbow_rad = 0.6;
 };

@@ -59,7 +59,7 @@ std::optional<double> first_root(double a, double b, double c) {
 }
 
 struct BallHit {
-  double above_m = 0.0;  // Of the ball over the point, at the point's distance.
+  double above_m = 0.0;  // For the ball over the point, at the point's distance.
   double time_s = 0.0;
 };
 

@@ -49,7 +49,7 @@ struct BallAim {
   /// As ThrowParameters for heading 0.
   double azimuth_rad = 0.0;
   double elevation_rad = 0.0;
-  double time_s = 0.0;  ///< Of flight.
+  double time_s = 0.0;  ///< For flight.
 };
 
 enum class BallArc { kFlat, kSteep };

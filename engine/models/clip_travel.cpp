@@ -21,7 +21,7 @@ bool stands_alone(const Phase& phase) {
   return phase.feet == PhaseClass::kLeft || phase.feet == PhaseClass::kRight;
 }
 
-// Whether a foot bears in `after` that does not bear in `before`.
+// True if a foot bears in `after` that does not bear in `before`.
 bool lands_between(PhaseClass before, PhaseClass after) {
   if (after == before || after == PhaseClass::kNone) return false;
   return before != PhaseClass::kBoth;

@@ -23,7 +23,7 @@ struct ClipStep {
   double land_s = 0.0;       ///< The next foot lands: >= alone_end_s.
   double along_legs = 0.0;
   double across_legs = 0.0;
-  double length_legs = 0.0;  ///< Of the displacement.
+  double length_legs = 0.0;  ///< For the displacement.
   /// Share of the displacement at which the hips pass the standing foot, about.
   double passes_at = 0.5;
   double turn_rad = 0.0;  ///< Change of the travel direction since the landing before.
@@ -42,9 +42,9 @@ struct ClipTravel {
   double direction_rad = 0.0;
   double turn_rad = 0.0;        ///< Heading gained over a cycle.
   double speed_legs_s = 0.0;    ///< Mean: distance_legs / cycle_s.
-  double mean_step_legs = 0.0;  ///< Of ClipStep::length_legs.
+  double mean_step_legs = 0.0;  ///< For ClipStep::length_legs.
   double mean_alone_s = 0.0;    ///< Time in which one foot stands alone, of a step.
-  /// Whether the clip leads anywhere: the displacement over a cycle is more than 0.15
+  /// True if the clip leads anywhere: the displacement over a cycle is more than 0.15
   /// of the sum of its steps' lengths. Otherwise (a dance on the spot) it has no
   /// direction.
   bool travels = false;

@@ -32,7 +32,7 @@ struct HandMotion {
 [[nodiscard]] RigidTransform continued(const HandMotion& hand, double after_s);
 
 /// Returns the rotation vector that takes one hand to the other, log(to * inverse(from)),
-/// in world axes, with its derivatives while both continue [rad]. Of the vectors that
+/// in world axes, with its derivatives while both continue [rad]. For the vectors that
 /// differ by whole turns the one nearest to `near_rad`. Derivatives to 1e-5 of the
 /// angular accelerations.
 [[nodiscard]] Motion3 turn_between(const HandMotion& from,

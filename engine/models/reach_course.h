@@ -15,7 +15,7 @@ namespace marey::engine {
 /// that is played, on this body, without the reach. Its place must be continuous with two
 /// derivatives, as the way of the hand is then.
 struct ReachInput {
-  double time_s = 0.0;  ///< Of the posture that is made in this step.
+  double time_s = 0.0;  ///< For the posture that is made in this step.
   double step_s = 0.0;  ///< To the next one; > 0.
   HandMotion clip_now;  ///< The clip's hand at time_s.
   /// The clip's hand when the event "arrive" of the clip is played, under the current

@@ -15,7 +15,7 @@ namespace marey::engine {
 namespace {
 
 constexpr double kSamePlace_m = 1e-3;
-// Of the spread of the places, squared: the cost of changing a weight. Small against 1,
+// For the spread of the places, squared: the cost of changing a weight. Small against 1,
 // so that the place is met to micrometres where it can be.
 constexpr double kWeightCost = 1e-6;
 constexpr std::size_t kMost = kMaxFamilyShares;

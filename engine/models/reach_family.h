@@ -22,7 +22,7 @@ struct FamilyMember {
   /// starts, from the hips' place on the floor, on the body that plays it. [m]
   glm::dvec3 arrival_in_heading_m{0.0};
   double arrive_s = 0.0;    ///< Time of the event "arrive" since the clip's start; > 0.
-  double duration_s = 0.0;  ///< Of the clip; at least arrive_s.
+  double duration_s = 0.0;  ///< For the clip; at least arrive_s.
 };
 
 struct FamilyShare {

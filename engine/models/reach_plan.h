@@ -18,7 +18,7 @@ struct ArrivalQuestion {
   /// Latest time to which the clip's event can be put off.
   double latest_s = 0.0;
   ReachTarget target;
-  double target_time_s = 0.0;  ///< Of the target.
+  double target_time_s = 0.0;  ///< For the target.
 };
 
 /// Legs of the displacement to the arrival; both end at the same time.

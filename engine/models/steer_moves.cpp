@@ -51,7 +51,7 @@ double arrival_m(const SteerScene& scene) {
 struct Ending {
   int further = 0;
   glm::dvec2 end_xz_m{0.0};  ///< Without turn.
-  double longer_m = 0.0;     ///< By which the steps up to it have to be longer.
+  double longer_m = 0.0;     ///< Necessary increase of the steps up to it.
   double along_m = 0.0;      ///< Their length.
 };
 
@@ -283,7 +283,7 @@ SteerMoment moment_of(const SteerScene& scene,
                       double land_clip_s,
                       std::size_t step) {
   const ClipTravel& travel = *scene.travel;
-  // In the first cycle path_at() need not sum up cycles.
+  // In the first cycle path_at() does not sum up cycles.
   const double cycles_s = std::floor(clip_s / travel.cycle_s) * travel.cycle_s;
   RootPlace by = relative(path_at(*scene.clip, clip_s - cycles_s),
                           path_at(*scene.clip, land_clip_s - cycles_s));

@@ -26,12 +26,12 @@ inline constexpr double kNear_m = 0.17;
 /// Everything that stays the same over a course.
 struct SteerScene {
   const MotionClip* clip = nullptr;
-  const ClipTravel* travel = nullptr;  ///< Of the clip.
+  const ClipTravel* travel = nullptr;  ///< For the clip.
   const SteerSettings* settings = nullptr;
   double leg_length_m = 1.0;
   double rate = 1.0;  ///< Clip seconds per second.
   glm::dvec2 goal_xz_m{0.0};
-  double step_s = 1.0 / 60.0;  ///< Of the engine.
+  double step_s = 1.0 / 60.0;  ///< For the engine.
   /// Share of the permitted turn that predictions use: the rest corrects their errors.
   double turn_share = 1.0;
   /// A last step that ends within this distance ends at the goal; 0: the usual one. [m]
@@ -53,7 +53,7 @@ struct SteerMoment {
 struct SteerMove {
   double turn_rad = 0.0;
   glm::dvec2 shift_xz_m{0.0};
-  glm::dvec2 end_xz_m{0.0};  ///< Where the root lands.
+  glm::dvec2 end_xz_m{0.0};  ///< Place at which the root lands.
   int further_steps = 0;     ///< After this one, about.
   bool is_aligned = false;   ///< Later steps need no turn.
   bool is_last = false;      ///< The step ends at the goal.
@@ -104,7 +104,7 @@ struct NextLanding {
                                     const SteerMoment& moment,
                                     const SteerStrategy& strategy);
 
-/// Whether a root at this place has arrived: within kNear_m of the goal, or, if the
+/// True if a root at this place has arrived: within kNear_m of the goal, or, if the
 /// course has `not_begun`, within half a step; and the next step (`moment`) would not
 /// lead closer.
 [[nodiscard]] bool is_arrival(const SteerScene& scene,

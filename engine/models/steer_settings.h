@@ -8,7 +8,7 @@ namespace marey::engine {
 struct SteerSettings {
   double max_turn_rad = 0.610865238198015;    ///< Per step: 35 degrees. In (0, 1.5].
   double max_turn_rad_s = 2.094395102393195;  ///< 120 degrees/s. > 0.
-  double min_scale = 0.7;                     ///< Of a step's length; in (0, 1].
+  double min_scale = 0.7;                     ///< For a step's length; in (0, 1].
   double max_scale = 1.3;                     ///< In [1, 2).
   /// A new goal does not change the swing that ends within this time. [s]
   double keep_s = 0.15;

@@ -20,7 +20,7 @@ struct ThrowParameters {
   /// Direction of the ball's velocity: 0 is the heading, positive towards +X.
   double azimuth_rad = 0.0;
   double elevation_rad = 0.0;  ///< Positive is up; in [-pi/2, pi/2].
-  double speed_m_s = 0.0;      ///< Of the ball.
+  double speed_m_s = 0.0;      ///< For the ball.
   double release_s = 0.0;      ///< Since the start of the clip.
 };
 
@@ -39,7 +39,7 @@ struct ThrowWish {
 /// elevation outside of [-pi/2, pi/2], release outside of [0, duration_s].
 [[nodiscard]] Status check_throw(const ThrowWish& wish, double duration_s);
 
-/// Returns the captured parameters with those that the wish names.
+/// Returns the captured parameters replaced where the wish names one.
 [[nodiscard]] ThrowParameters with_wish(const ThrowParameters& captured,
                                         const ThrowWish& wish);
 

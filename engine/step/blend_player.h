@@ -28,7 +28,7 @@ struct TransitionReport {
 };
 
 struct BlendPlayerOptions {
-  double half_life_s = 0.1;  ///< Of inertial offsets.
+  double half_life_s = 0.1;  ///< For inertial offsets.
   double max_incompatible_s = 0.10;
   double anchor_fade_s = 0.05;
   bool anchors_root = true;
@@ -123,11 +123,11 @@ class BlendPlayer {
   PostureRates rates_;
   FootPlaces feet_;
   RootPlace root_;
-  RootPlace root_rate_;    ///< Of the last step, in its heading frame. [1/s]
+  RootPlace root_rate_;    ///< For the last step, in its heading frame. [1/s]
   RootPlace root_offset_;  ///< Decaying velocity that remains of a break.
   RootPlace root_offset_rate_;
   RootAnchor anchor_;
-  double anchored_s_ = 0.0;       ///< Of the present or last transition.
+  double anchored_s_ = 0.0;       ///< For the present or last transition.
   double anchor_strength_ = 0.0;  ///< 0 to 1, before smoothing.
   double transition_end_s_ = -1.0;
   PerFootPart bears_{};

@@ -139,7 +139,7 @@ bool BlendPlayer::synchronise(Action& action, double time_s, bool always) {
   SyncOptions sync;
   const EntryRange range = entry_range(action, base_->clip(action.clip));
   sync.entry_s = range.half_s;
-  // Replaced actions are heard until they have faded out.
+  // Replaced actions count until they have faded out.
   if (action.replaces) sync.horizon_s = std::max(action.fade_in_s, 0.2);
   const SyncPlan plan =
       plan_sync(lead_side, side(action, range.middle_s, action.rate), sync);

@@ -38,7 +38,7 @@ enum class DetailLevel : std::uint8_t {
 /// A character to add to an engine.
 struct CharacterSpec {
   Character character;
-  retarget::BodyMap map;  ///< Of the character's skeleton.
+  retarget::BodyMap map;  ///< For the character's skeleton.
   RootPlace start;
   double importance = 1.0;
   DetailLevel level = DetailLevel::kKinematic;
@@ -54,7 +54,7 @@ struct CharacterSpec {
 /// State of a character after a step.
 struct CharacterReport {
   TransitionReport transition;
-  retarget::AdaptReport adapt;   ///< Of kKinematic and above.
+  retarget::AdaptReport adapt;   ///< For kKinematic and above.
   std::array<bool, 2> stands{};  ///< Left, right: the foot is held.
 };
 
@@ -112,7 +112,7 @@ class CharacterPlayer {
   BlendPlayer blend_;
   FootHoldOptions foot_options_;
   DetailLevel level_ = DetailLevel::kKinematic;
-  double activation_ = 1.0;  ///< Of supports, before smoothing.
+  double activation_ = 1.0;  ///< For supports, before smoothing.
   std::unique_ptr<retarget::Adapter> adapter_;
   std::array<std::optional<retarget::Adapter::Handle>, 2> supports_{};
   /// By hand: the point, then the rotation.

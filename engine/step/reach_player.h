@@ -58,7 +58,7 @@ class ReachPlayer {
   void release() { course_.release(); }
 
   /// Computes the hand of this step and moves the constraints; false: it is over, and the
-  /// constraints are stopped. `world_from_joint`: of the blend on the body at time_s.
+  /// constraints are stopped. `world_from_joint` are joints of the blend on the body at time_s.
   bool step(double time_s,
             double step_s,
             BlendPlayer& blend,
@@ -80,7 +80,7 @@ class ReachPlayer {
   const Skeleton* skeleton_;
   const retarget::BodyMap* map_;
   ActionId action_{};
-  double event_s_ = 0.0;  ///< Of arrival, in the clip.
+  double event_s_ = 0.0;  ///< For arrival, in the clip.
   ReachWish wish_;
   ReachLengths lengths_;
   glm::dvec3 palm_in_t_pose_{0.0};

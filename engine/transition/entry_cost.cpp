@@ -102,7 +102,7 @@ PostureRates rates_of_frame(const MotionClip& clip, std::size_t frame) {
   return rates_between(clip.frames[before], clip.frames[after], steps / clip.rate_hz);
 }
 
-// Whether a frame of a clip is within `entry_s` of `at_s`; in a clip that loops, of it in
+// True if a frame of a clip is within `entry_s` of `at_s`; in a clip that loops, of it in
 // any cycle.
 bool is_near(const MotionClip& clip, std::size_t frame, double at_s, double entry_s) {
   double away_s = static_cast<double>(frame) / static_cast<double>(clip.rate_hz) - at_s;

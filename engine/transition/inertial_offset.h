@@ -57,7 +57,7 @@ class InertialOffset {
   BlendPosture::Rotations y_{};
   BlendPosture::Rotations z_{};
   std::array<float, 24> values_{};  ///< Extension, mid, twists, height, spine shares.
-  PostureRates rates_{};            ///< Of the offset.
+  PostureRates rates_{};            ///< For the offset.
 };
 
 /// Continues a posture whose source vanished: every velocity decays with `half_life_s`

@@ -17,7 +17,7 @@ namespace {
 struct ContactEdge {
   double time_s = 0.0;
   std::size_t foot = 0;  ///< 0 left, 1 right.
-  int change = 0;        ///< Of the number of its parts that bear.
+  int change = 0;        ///< For the number of its parts that bear.
 };
 
 std::vector<ContactEdge> contact_edges(const MotionClip& clip) {

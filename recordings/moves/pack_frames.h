@@ -20,7 +20,7 @@ namespace marey::recordings {
 inline constexpr std::size_t kFrameBytes =
     kUsedRotations * 3 * 4 + (5 * 4 + 3 + 3) * 4 + (kUsedRotations * 3 + 7) / 8;
 
-/// Serializes the frames, kFrameBytes each. Of a rotation, the component with the largest
+/// Serializes the frames, kFrameBytes each. For a rotation, the component with the largest
 /// magnitude is left out; its place and its sign take three bits.
 /// Precondition: one path entry per frame; rotations of unit length to 0.001.
 [[nodiscard]] std::string pack_frames(std::span<const BlendPosture> frames,

@@ -133,7 +133,7 @@ class MovesReader {
     const bool is_whole =
         !rows.failed() && clips_ == static_cast<std::int64_t>(out_.clips.size());
     if (is_whole) return Done{};
-    return damaged("it holds another number of clips than its head says");
+    return damaged("it holds another number of clips than its head has");
   }
 
   /// Counts bytes that were read. Returns false if they are more than the file has: rows
@@ -204,7 +204,7 @@ class MovesReader {
     return Done{};
   }
 
-  /// Returns the clip of a row; null: there is none.
+  /// Returns the clip of a row; null without one.
   [[nodiscard]] MotionClip* clip_at(std::int64_t number) {
     const bool is_clip =
         number >= 0 && static_cast<std::uint64_t>(number) < out_.clips.size();

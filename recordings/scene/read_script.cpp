@@ -159,7 +159,7 @@ class ActionCheck {
     }
   }
 
-  /// Whether the file stops an action without an end, other than by waiting for it.
+  /// True if the file stops an action without an end, other than by waiting for it.
   bool is_stopped(std::size_t k) const {
     const SceneAction& action = scene_.script[k];
     for (std::size_t s = 0; s < scene_.script.size(); ++s) {

@@ -14,7 +14,7 @@ namespace marey::recordings::stage {
 /// the document: a key, a range, an id that is used twice, an unknown body.
 void read_targets(TomlReader& root, Scene& scene);
 
-/// Reads the id of a target. Mistake: there is none of it, or it is missing.
+/// Reads the id of a target. Mistake: no such target, or no name.
 [[nodiscard]] std::string read_target_id(TomlReader& in,
                                          std::string_view key,
                                          const Scene& scene);

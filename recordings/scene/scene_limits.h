@@ -64,7 +64,7 @@ inline constexpr std::size_t kMaxNameBytes = 1000;
 inline constexpr std::size_t kMaxPathBytes = 4096;
 inline constexpr std::size_t kMaxSceneBytes = std::size_t{4} << 20;
 inline constexpr std::size_t kMaxBodies = 5000;
-inline constexpr std::size_t kMaxTables = 2000;  ///< Of targets, actions and so on.
+inline constexpr std::size_t kMaxTables = 2000;  ///< For targets, actions and so on.
 inline constexpr std::size_t kMaxDependencies = 20'000;
 inline constexpr std::size_t kMaxThrows = 10'000;
 

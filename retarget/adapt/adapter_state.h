@@ -47,7 +47,7 @@ struct AdapterOwn {
   AdapterWork work;
 };
 
-/// An adapter: its block of memory, with what is shared.
+/// An adapter: its block of memory and the shared plan.
 struct AdapterState {
   std::shared_ptr<const SharedPlan> shared;
   std::shared_ptr<const AdapterNames> names;

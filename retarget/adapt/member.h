@@ -35,7 +35,7 @@ struct MemberHead {
   /// (extrapolated) start time of the fade; known from the next posture on.
   double passed = 1.0;
   std::optional<double> passes_since_s;
-  AdaptReport report;  ///< Of the last posture.
+  AdaptReport report;  ///< For the last posture.
 };
 
 /// State of one constraint.

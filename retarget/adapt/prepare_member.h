@@ -51,7 +51,7 @@ struct FadePass {
 
 /// Returns the number of solves of a problem that fades.
 [[nodiscard]] int fade_pass_count(const MemberHead& head, const PackedProblem& problem);
-/// Returns one of them. Those of the control that is left come first.
+/// Returns one of them. Constraints of the old control come first.
 [[nodiscard]] FadePass fade_pass(const MemberHead& head,
                                  const PackedProblem& problem,
                                  int number);

@@ -19,7 +19,7 @@ namespace marey::retarget {
 struct MemberLayout {
   std::size_t joints = 0;
   std::size_t constraints = 0;
-  std::size_t masses = 0;  ///< Those of the body, then its loads.
+  std::size_t masses = 0;  ///< Masses of the body, then its loads.
   std::size_t own_masses = 0;
   std::size_t numbers = 0;  ///< Packed constants of the body.
 

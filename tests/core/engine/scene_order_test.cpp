@@ -28,7 +28,7 @@ bool is_active(const SceneDependency& link, double time_s) {
   return link.start_s <= time_s && time_s <= link.end_s;
 }
 
-/// Whether bodies depend on themselves by any path, by transitive closure.
+/// True if bodies depend on themselves by any path, by transitive closure.
 bool has_cycle(const std::vector<SceneDependency>& links,
                std::size_t bodies,
                double time_s) {

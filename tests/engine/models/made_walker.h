@@ -17,15 +17,15 @@ namespace marey::engine {
 
 /// A gait from which a clip is made. Lengths in legs.
 struct Gait {
-  int steps = 2;  ///< Of a cycle; even.
+  int steps = 2;  ///< For a cycle; even.
   double step_legs = 0.75;
   double step_s = 0.55;
-  double alone_share = 0.7;  ///< Of a step in which one foot stands alone.
+  double alone_share = 0.7;  ///< For a step in which one foot stands alone.
   bool runs = false;         ///< The rest of the step is flight instead of both feet.
   double width_legs = 0.12;
   double sway_legs = 0.0;
   double travel_rad = 0.0;  ///< Direction of travel relative to the heading.
-  double turn_rad = 0.0;    ///< Of the path, per step.
+  double turn_rad = 0.0;    ///< For the path, per step.
   double irregular = 0.0;   ///< Deviation of single steps, relative to the step.
   bool stays = false;       ///< Every second step leads back: a dance on the spot.
   bool mirrored = false;
@@ -70,12 +70,12 @@ struct Walked {
   double distance_m = 0.0;  ///< At the end.
   double duration_s = 0.0;
   int landings = 0;
-  double max_turn_rad = 0.0;  ///< Of one time in which a foot stands alone.
+  double max_turn_rad = 0.0;  ///< For one time in which a foot stands alone.
   double max_turn_rad_s = 0.0;
   double turn_with_both_rad = 0.0;  ///< While not one foot alone bears.
-  double foot_error_m = 0.0;        ///< Of standing feet; see walk().
+  double foot_error_m = 0.0;        ///< For standing feet; see walk().
   double max_shift_of_step = 0.0;   ///< Relative to the clip's mean step.
-  double max_twist_rad = 0.0;       ///< Of a standing foot against the hips' turn.
+  double max_twist_rad = 0.0;       ///< For a standing foot against the hips' turn.
   double twist_error_rad = 0.0;     ///< Against the reported twist.
 };
 

@@ -72,7 +72,7 @@ PlayedThrow play_throw(const MadeThrow& made, const ThrowWish& wish, double step
 }
 
 // The seven parameters from the places of the wrist and the rotations of the clip's hand,
-// by differences: knows nothing of the course.
+// by differences: independent of the course.
 ThrowParameters judge_throw(const MadeThrow& made,
                             const std::vector<glm::dvec3>& wrist,
                             double step_s,

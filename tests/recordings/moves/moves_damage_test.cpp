@@ -62,7 +62,7 @@ TEST(DamagedMoves, AreRefusedWhicheverBitIsFlipped) {
   }
 }
 
-// With right sums, as of a file that somebody made to do harm: it is refused or read, and
+// With right sums, as in a file that was made to do harm: it is refused or read, and
 // all numbers that are read can be written again.
 TEST(DamagedMoves, NeverHarmEvenIfTheirPagesHaveRightSums) {
   std::mt19937 random(6);

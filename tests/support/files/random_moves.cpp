@@ -31,7 +31,7 @@ BlendPosture random_posture(Random& random) {
     posture.z[r] = static_cast<float>(q.z);
   }
   for (std::size_t limb = 0; limb < 4; ++limb) {
-    posture.extension[limb] = draw(random, 0.3, 1.0);
+    posture.fold_rad[limb] = draw(random, 0.3, 1.0);
     posture.mid_x[limb] = draw(random, -1.0, 1.0);
     posture.mid_y[limb] = draw(random, -1.0, 1.0);
     posture.upper_twist_rad[limb] = draw(random, -3.0, 3.0);
