@@ -33,8 +33,7 @@ ReachFeasibility ask_at(const glm::dvec3& target, const ReachShare& share) {
   return ask_reach(made_lengths(), share, question);
 }
 
-// The truth: places of an arm of two bones and a palm, its joints drawn at random, on a
-// trunk that leans and hips that move.
+// The truth: places of an arm of two bones whose joints are drawn at random.
 TEST(AskReach, EveryPlaceThatABodyTakesIsReachable) {
   const ReachLengths lengths = made_lengths();
   const ReachShare share;
@@ -96,6 +95,30 @@ TEST(AskReach, LengthsAreThoseOfTheBody) {
   EXPECT_LT(lengths.palm_m, 0.15);
   EXPECT_GT(lengths.trunk_m, 0.3);
   EXPECT_LT(lengths.trunk_m, 0.7);
+}
+
+TEST(AskReach, StepsAndAnswersDoNotAllocate) {
+  std::mt19937 random(1);
+  const testing::MadeHand hand(random);
+  ReachCourse course;
+  course.start(0.0, hand.at(0.0), {});
+  const long before = testing::allocations();
+  bool reachable = true;
+  for (int i = 1; i < 120; ++i) {
+    ReachInput input;
+    input.time_s = i / 60.0;
+    input.step_s = 1.0 / 60.0;
+    input.clip_now = hand.at(input.time_s);
+    input.clip_at_arrival = hand.at(0.8);
+    input.arrive_s = 0.8;
+    input.target = ReachTarget{};
+    input.target->p_in_world = {0.3, 1.3, i < 100 ? 0.4 : 1.2};
+    input.target->world_from_hand = glm::dquat(0.8, 0.6, 0.0, 0.0);
+    (void)course.step(input);
+    reachable = reachable && ask_at(input.target->p_in_world, {}).reachable;
+  }
+  EXPECT_EQ(testing::allocations(), before);
+  EXPECT_FALSE(reachable);
 }
 
 }  // namespace

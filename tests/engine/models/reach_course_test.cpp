@@ -123,6 +123,33 @@ TEST(ReachCourse, HandAcceleratesLittleMoreThanTheClip) {
   }
 }
 
+// The prediction knows the velocity alone: half of 1.25 m/s^2 times (3 steps)^2 is 1.6
+// mm.
+TEST(ReachCourse, MeetsAndRidesATargetOnACircle) {
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(3000 + seed);
+    const MadeReach made(random, false);
+    const glm::dvec3 centre = made.target.p_in_world;
+    const auto target_at = [&](double time_s) {
+      ReachTarget target;
+      const double angle = 2.5 * time_s;
+      target.p_in_world =
+          centre + 0.2 * glm::dvec3(std::cos(angle), std::sin(angle), 0.0);
+      target.velocity_m_s = 0.5 * glm::dvec3(-std::sin(angle), std::cos(angle), 0.0);
+      return target;
+    };
+    const JudgedWay way =
+        play_reach(made.hand, made.arrive_s, 2.0, kReachStep_s, {}, target_at);
+    EXPECT_LT(glm::distance(way.place(made.arrive_s, way.before(made.arrive_s)),
+                            target_at(made.arrive_s).p_in_world),
+              0.002);
+    const std::size_t last = way.places.size() - 1;
+    EXPECT_LT(glm::distance(way.places[last], target_at(way.time_s(last)).p_in_world),
+              1e-9);
+  }
+}
+
 // A way with a jump in its acceleration keeps that jump however short the steps are.
 TEST(ReachCourse, WayHasTwoContinuousDerivativesThoughTheTargetJumps) {
   for (unsigned seed = 0; seed < 60; ++seed) {
