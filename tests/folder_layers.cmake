@@ -11,7 +11,7 @@ set(reconstruct_LAYERS
   clusters posture tags bundle labels markers motion segments subject tracks)
 set(retarget_LAYERS
   base constraints bones body character contacts feet balance com hands motion
-  adapt/plan adapt/kernel adapt)
+  adapt/algebra adapt/plan adapt/kernel adapt)
 set(dynamics_LAYERS push flight momentum balance jumps)
 set(edit_LAYERS signal state balance find filter splice jump ops markers .)
 set(engine_LAYERS sync blend clips transition feet models detail actions step .)

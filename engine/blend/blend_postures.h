@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "engine/blend/blend_sides.h"
 #include "engine/blend/posture_groups.h"
 
 #include "core/engine/blend_posture.h"
@@ -19,16 +20,6 @@ void interpolate(const BlendPosture& a,
                  float at,
                  BlendPosture& out);
 
-/// Side on which each rotation was blended in the step before: keeps weights from
-/// flipping a rotation when sources are more than 170 degrees apart.
-struct BlendSides {
-  BlendPosture::Rotations x{};
-  BlendPosture::Rotations y{};
-  BlendPosture::Rotations z{};
-  BlendPosture::Rotations w{};
-  bool is_known = false;
-};
-
 /// Blends postures with weights by group: rotations as mean_rotation() (of two by slerp),
 /// twists after wrapping to within a half turn of the heaviest one's, all other values
 /// linearly. Weights of a group are normalised to one; a source of weight 0 leaves the
@@ -40,7 +31,5 @@ void blend_postures(std::span<const BlendPosture* const> sources,
                     std::span<const PerGroup> weights,
                     BlendSides* sides,
                     BlendPosture& out);
-
-inline constexpr std::size_t kMaxBlended = 8;
 
 }  // namespace marey::engine

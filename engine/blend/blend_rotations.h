@@ -5,7 +5,7 @@
 #include <array>
 #include <span>
 
-#include "engine/blend/blend_postures.h"
+#include "engine/blend/blend_sides.h"
 
 #include "core/engine/blend_posture.h"
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "engine/sync/phase_ring.h"
-#include "engine/sync/plan_sync.h"
+#include "engine/sync/sync_side.h"
 
 namespace marey::engine {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "retarget/adapt/shared_plan.h"
 
-#include "retarget/adapt/member.h"
+#include "retarget/adapt/member_block.h"
 
 namespace marey::retarget {
 namespace {

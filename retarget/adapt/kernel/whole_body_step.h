@@ -4,7 +4,7 @@
 
 #include "retarget/adapt/kernel/adapt_limits.h"
 #include "retarget/adapt/kernel/adapt_measure.h"
-#include "retarget/adapt/kernel/block_cholesky.h"
+#include "retarget/adapt/algebra/block_cholesky.h"
 #include "retarget/adapt/kernel/limb_closure.h"
 
 /// One damped Gauss-Newton step of the whole body, in dual form.

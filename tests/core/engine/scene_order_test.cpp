@@ -73,7 +73,7 @@ TEST(SceneOrder, FindsTheEarliestCycleAndOnlyCycles) {
   EXPECT_LT(cycles, 1800);
 }
 
-TEST(SceneOrder, RoundsPutABodyAfterThoseThatItDependsOn) {
+TEST(SceneOrder, RoundsPutABodyAfterItsTargets) {
   std::vector<std::size_t> rounds;
   int checked = 0;
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {

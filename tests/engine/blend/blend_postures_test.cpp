@@ -114,7 +114,7 @@ TEST(BlendPostures, KeepsAGroupWithoutWeight) {
   }
 }
 
-TEST(BlendPostures, OfAPostureWithItselfIsItself) {
+TEST(BlendPostures, LeaveAPostureThatIsBlendedWithItself) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     std::mt19937 random(seed);
     const BlendPosture p = random_postures(random, 1, 1.0)[0];
@@ -159,7 +159,7 @@ TEST(BlendPostures, AgreesWithTheMeanInDoublePrecision) {
   }
 }
 
-TEST(BlendPostures, OfMirroredRotationsIsMirroredToTheBit) {
+TEST(BlendPostures, MirrorToTheBit) {
   for (unsigned seed = 0; seed < 100; ++seed) {
     std::mt19937 random(seed);
     auto postures = random_postures(random, 2 + seed % 3, kSpread_rad);

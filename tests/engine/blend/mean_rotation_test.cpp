@@ -42,7 +42,7 @@ TEST(MeanRotation, IsWithinAHundredthOfADegreeOfTheIntrinsicMean) {
   EXPECT_LT(worst_degrees(120.0, 100001), 0.01);
 }
 
-TEST(MeanRotation, OfTwoIsTheirSlerp) {
+TEST(MeanRotation, IsTheSlerpForTwo) {
   for (unsigned seed = 0; seed < 2000; ++seed) {
     std::mt19937 random(seed);
     const auto rotations = random_spread(random, 2, 175.0 * kRadPerDegree);
@@ -85,7 +85,7 @@ TEST(MeanRotation, TakesTheArcOnTheGivenSide) {
   EXPECT_LT(angle_between_rad(mean_rotation(both, weights, &forward), forward), 1e-12);
 }
 
-TEST(MeanRotation, OfOppositeRotationsIsAUnitQuaternion) {
+TEST(MeanRotation, IsAUnitQuaternionForOppositeRotations) {
   const std::array<glm::dquat, 3> rotations{glm::dquat(1.0, 0.0, 0.0, 0.0),
                                             glm::dquat(0.0, 1.0, 0.0, 0.0),
                                             glm::dquat(0.0, 0.0, 1.0, 0.0)};

@@ -71,7 +71,7 @@ TEST(AskReach, MissingIsTheDistanceBeyondTheArm) {
       1e-9);
 }
 
-TEST(AskReach, DurationIsTheClipsOrWhatTheHandNeeds) {
+TEST(AskReach, DurationIsThatOfClipOrHand) {
   EXPECT_NEAR(ask_at({0.3, 1.3, 0.4}, {}).duration_s, 0.8, 1e-12);
   ReachOptions slow;
   slow.max_acceleration_m_s2 = 1.0;

@@ -46,7 +46,7 @@ TEST(EntryCost, IsTheAreaUnderTheDecayingOffset) {
   EXPECT_NEAR(entry_cost(plain_rig(), from, rates, to, {}), 6.0 * area_m_s, 1e-4);
 }
 
-TEST(EntryCost, OfTheSamePostureIsZeroAndOfOppositeSupportsInfinite) {
+TEST(EntryCost, IsZeroForOnePostureAndInfiniteForOppositeSupports) {
   std::mt19937 random(2);
   const BlendPosture p = random_postures(random, 1, 1.0)[0];
   EXPECT_EQ(entry_cost(plain_rig(), p, {}, p, {}), 0.0);

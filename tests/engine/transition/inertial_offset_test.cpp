@@ -119,7 +119,7 @@ TEST(InertialOffset, EndsWhenItIsNegligible) {
 
 // The second switch takes the shown posture, so that the rest of the first offset is part
 // of the second one.
-TEST(InertialOffset, OfNestedSwitchesAddsUp) {
+TEST(InertialOffset, AddsUpOverNestedSwitches) {
   std::mt19937 random(9);
   const auto p = random_postures(random, 3, 1.0);
   InertialOffset offset;

@@ -39,7 +39,7 @@ void expect_refused(const std::string& bytes, const std::string& cause) {
   EXPECT_FALSE(read.error().next.empty());
 }
 
-TEST(DamagedMoves, AreRefusedWhereverTheyAreCutShort) {
+TEST(DamagedMoves, AreRefusedIfCutAnywhere) {
   const std::string whole = small_base(1);
   for (std::size_t size = 0; size < whole.size(); ++size) {
     const auto read = parse_moves(std::string_view(whole).substr(0, size), "moves.marey");
@@ -95,13 +95,13 @@ TEST(DamagedMoves, AreRefusedWithPagesOfAnotherPlace) {
   expect_refused(swapped, "page 3");
 }
 
-TEST(DamagedMoves, OfANewerVersionAreRefusedByTheirVersion) {
+TEST(DamagedMoves, WithANewerVersionAreRefusedByIt) {
   std::string bytes = small_base(3);
   bytes[63] = 2;  // The last byte of SQLite's user_version.
   expect_refused(bytes, "newer version of marey (format 2, this version reads 1)");
 }
 
-TEST(DamagedMoves, OfAnotherApplicationAreRefused) {
+TEST(DamagedMoves, FromAnotherApplicationAreRefused) {
   std::string bytes = small_base(3);
   bytes[71] = 'e';  // The id of a take.
   expect_refused(bytes, "no base of motion clips");

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/adapt/kernel/fade_shares.h"
+#include "retarget/adapt/algebra/fade_shares.h"
 
 #include <algorithm>
 #include <cstddef>
