@@ -67,9 +67,9 @@ Status Engine::check_character(CharacterId character) const {
                    "use an id that add() returned");
 }
 
-Result<ActionId> Engine::play(CharacterId character, const ActionWish& wish) {
+Result<Action> Engine::checked(CharacterId character, const ActionWish& wish) const {
   if (const auto known = check_character(character); !known) return known.error();
-  CharacterPlayer& who = player(character);
+  const CharacterPlayer& who = player(character);
   auto action = check_wish(wish, *base_, who.blend().actions(), groups_of(who.map()));
   if (!action) return action.error();
   if (!who.blend().has_room()) {
@@ -78,9 +78,85 @@ Result<ActionId> Engine::play(CharacterId character, const ActionWish& wish) {
         "the character has " + std::to_string(kMaxActions) + " actions already",
         "stop some of them first");
   }
-  action->id = ActionId{next_action_++};
-  who.blend().add(*action);
-  return action->id;
+  return action;
+}
+
+ActionId Engine::add_action(CharacterId character, Action action) {
+  action.id = ActionId{next_action_++};
+  player(character).blend().add(action);
+  return action.id;
+}
+
+Result<ActionId> Engine::play(CharacterId character, const ActionWish& wish) {
+  auto action = checked(character, wish);
+  if (!action) return action.error();
+  return add_action(character, *std::move(action));
+}
+
+Result<ActionId> Engine::play(CharacterId character, const SteerWish& wish) {
+  auto action = checked(character, wish.action);
+  if (!action) return action.error();
+  auto steer = SteerPlayer::make(*base_, ActionId{next_action_}, action->clip, wish);
+  if (!steer) return steer.error();
+  player(character).steer(*std::move(steer));
+  return add_action(character, *std::move(action));
+}
+
+Status Engine::aim(CharacterId character, glm::dvec2 goal_xz_m) {
+  if (const auto known = check_character(character); !known) return known.error();
+  if (SteerPlayer* steer = player(character).steering()) return steer->aim(goal_xz_m);
+  return bad_input("character " + std::to_string(static_cast<int>(character)),
+                   "it does not walk to a goal",
+                   "play a walk with a goal first");
+}
+
+Result<ActionId> Engine::play(CharacterId character, const ReachWish& wish) {
+  auto action = checked(character, wish.action);
+  if (!action) return action.error();
+  auto reach = made_reach(character, *action, wish);
+  if (!reach) return reach.error();
+  player(character).reach(*std::move(reach));
+  return add_action(character, *std::move(action));
+}
+
+Result<ReachPlayer> Engine::made_reach(CharacterId character,
+                                       const Action& action,
+                                       const ReachWish& wish) const {
+  const CharacterPlayer& who = player(character);
+  if (!who.can_reach()) {
+    return bad_input("action \"" + wish.action.clip + "\"",
+                     "the character was added without constraints for its hands",
+                     "add it with CharacterSpec::reaches");
+  }
+  if (wish.side != 0 && wish.side != 1) {
+    return bad_input("action \"" + wish.action.clip + "\"",
+                     "there is no hand " + std::to_string(wish.side),
+                     "give 0 for the left hand or 1 for the right one");
+  }
+  return ReachPlayer::make(*base_,
+                           ActionId{next_action_},
+                           action.clip,
+                           wish,
+                           who.character().skeleton,
+                           who.map());
+}
+
+Status Engine::aim(CharacterId character, int side, const ReachTarget& target) {
+  if (const auto known = check_character(character); !known) return known.error();
+  if (side == 0 || side == 1) {
+    if (ReachPlayer* reach = player(character).reaching(side)) return reach->aim(target);
+  }
+  return bad_input("character " + std::to_string(static_cast<int>(character)),
+                   "this hand does not reach",
+                   "play a reach with it first");
+}
+
+Result<ReachFeasibility> Engine::ask(CharacterId character, const ReachWish& wish) const {
+  auto action = checked(character, wish.action);
+  if (!action) return action.error();
+  auto reach = made_reach(character, *action, wish);
+  if (!reach) return reach.error();
+  return reach->ask(player(character).blend(), *action);
 }
 
 Status Engine::stop(CharacterId character, ActionId action) {

@@ -57,6 +57,20 @@ class Engine {
   /// exist, is over, or has no end; an event that its clip does not have; more than
   /// kMaxActions actions.
   [[nodiscard]] Result<ActionId> play(CharacterId character, const ActionWish& wish);
+  /// Requests a walk to a goal. It replaces an earlier one. Errors: those of an action
+  /// and of SteerPlayer::make().
+  [[nodiscard]] Result<ActionId> play(CharacterId character, const SteerWish& wish);
+  /// Moves the goal of the walk. Errors: nothing is steered; not finite.
+  [[nodiscard]] Status aim(CharacterId character, glm::dvec2 goal_xz_m);
+  /// Requests a reach. It replaces an earlier one of that hand. Errors: those of an
+  /// action and of ReachPlayer::make(); a character without CharacterSpec::reaches.
+  [[nodiscard]] Result<ActionId> play(CharacterId character, const ReachWish& wish);
+  /// Moves the target of a hand. Errors: the hand does not reach; check_target()'s.
+  [[nodiscard]] Status aim(CharacterId character, int side, const ReachTarget& target);
+  /// Answers whether a reach can succeed from the present place, without playing it.
+  /// Errors: those of play().
+  [[nodiscard]] Result<ReachFeasibility> ask(CharacterId character,
+                                             const ReachWish& wish) const;
   /// Fades an action out, or takes a waiting one back. Error: it is over or unknown.
   [[nodiscard]] Status stop(CharacterId character, ActionId action);
   /// Fades out all actions of a layer; nullopt means all layers.
@@ -79,6 +93,12 @@ class Engine {
  private:
   Engine(std::shared_ptr<const MotionBase> base, const EngineOptions& options);
   [[nodiscard]] Status check_character(CharacterId character) const;
+  [[nodiscard]] Result<Action> checked(CharacterId character,
+                                       const ActionWish& wish) const;
+  [[nodiscard]] Result<ReachPlayer> made_reach(CharacterId character,
+                                               const Action& action,
+                                               const ReachWish& wish) const;
+  ActionId add_action(CharacterId character, Action action);
 
   std::shared_ptr<const MotionBase> base_;
   EngineOptions options_;

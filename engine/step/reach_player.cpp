@@ -114,6 +114,37 @@ double ReachPlayer::event_time_s(double now_s, const PhaseWarp& warp) const {
   return 0.5 * (low + high);
 }
 
+ReachFeasibility ReachPlayer::ask(const BlendPlayer& blend, const Action& action) {
+  const MotionClip& clip = blend.base().clip(action.clip);
+  const double entry_s = action.entry_s.value_or(0.0);
+  const RootPlace start = path_at(clip, entry_s);
+  const auto palm_at = [&](double source_s) {
+    BlendPosture posture;
+    sample_clip(clip, source_s, posture);
+    RootPlace by = relative(start, path_at(clip, source_s));
+    by.x_m *= map_->leg_length_m;
+    by.z_m *= map_->leg_length_m;
+    to_normalized(posture,
+                  blend.base().layout(),
+                  moved(blend.root(), by),
+                  map_->leg_length_m,
+                  normalized_);
+    retarget::expand(normalized_, *skeleton_, *map_, joints_, pose_);
+    return palm(joints_);
+  };
+  constexpr double kStep_s = 1.0 / 60.0;
+  ReachQuestion question;
+  const RigidTransform before = palm_at(event_s_ - kStep_s);
+  const RigidTransform after = palm_at(event_s_ + kStep_s);
+  question.clip_at_arrival = hand_motion(before, palm_at(event_s_), after, kStep_s);
+  const retarget::LimbMap& arm = *map_->limbs[static_cast<std::size_t>(wish_.side)];
+  question.hips_in_world = joints_[index(map_->hips())].translation;
+  question.shoulder_in_world = joints_[index(arm.upper)].translation;
+  question.clip_remaining_s = std::max(0.0, event_s_ - entry_s) / action.rate;
+  question.target = wish_.target;
+  return ask_reach(lengths_, wish_.share, question, wish_.options);
+}
+
 bool ReachPlayer::step(double time_s,
                        double step_s,
                        BlendPlayer& blend,

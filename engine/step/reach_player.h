@@ -57,8 +57,13 @@ class ReachPlayer {
   [[nodiscard]] Status aim(const ReachTarget& target);
   void release() { course_.release(); }
 
+  /// Answers whether the reach can succeed if its action began now, from the root's
+  /// present place, without other actions.
+  [[nodiscard]] ReachFeasibility ask(const BlendPlayer& blend, const Action& action);
+
   /// Computes the hand of this step and moves the constraints; false: it is over, and the
-  /// constraints are stopped. `world_from_joint` are joints of the blend on the body at time_s.
+  /// constraints are stopped. `world_from_joint` are joints of the blend on the body at
+  /// time_s.
   bool step(double time_s,
             double step_s,
             BlendPlayer& blend,
