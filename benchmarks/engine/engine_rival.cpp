@@ -156,8 +156,36 @@ std::vector<EngineTransitions> engine_transitions(const std::vector<SwitchCase>&
   return out;
 }
 
-std::vector<EngineLoop> engine_loops(const LoopClip&) {
-  return {};
+std::vector<EngineLoop> engine_loops(const LoopClip& loop) {
+  engine::ClipSource source;
+  source.name = "loop";
+  source.motion = loop.motion;
+  source.map = loop.map;
+  source.contacts = loop.contacts;
+  source.loops = true;
+  const std::vector<engine::ClipSource> sources{source};
+  auto base = taken(engine::MotionBase::make(taken(engine::make_moves(sources))));
+  engine::CharacterSpec spec;
+  spec.map = loop.map;
+  spec.character =
+      taken(retarget::make_character("actor", loop.motion.skeleton, loop.map));
+  spec.level = engine::DetailLevel::kBlended;
+  spec.start = engine::path_at(base->clip(0), 0.0);
+  spec.start.x_m *= loop.map.leg_length_m;
+  spec.start.z_m *= loop.map.leg_length_m;
+  const auto played = std::make_shared<Engine>(
+      taken(Engine::make(base, {.step_hz = loop.motion.rate.hz})));
+  const auto who = taken(played->add(std::move(spec)));
+  ActionWish wish;
+  wish.clip = "loop";
+  wish.entry_s = 0.0;
+  (void)taken(played->play(who, wish));
+  return {
+      {"engine, blended", [played, who, first = loop.motion.poses.front()](int frame) {
+         if (frame == 0) return first;
+         played->advance();
+         return played->pose(who);
+       }}};
 }
 
 }  // namespace marey

@@ -313,6 +313,8 @@ bool BlendPlayer::step(double time_s, double step_s) {
   }
   shown_ = blend.posture;
   if (!is_known_) {
+    // The start is the place at the entry of the first action, a step ago.
+    root_ = moved(root_, blend.root_step);
     feet_ = foot_places(rig_, shown_);
     root_rate_ = {blend.root_step.x_m / step_s,
                   blend.root_step.z_m / step_s,
