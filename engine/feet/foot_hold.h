@@ -13,7 +13,7 @@
 namespace marey::engine {
 
 struct FootHoldOptions {
-  double land_s = 0.12;     ///< A landing that is expected is prepared for this long.
+  double land_s = 0.20;     ///< A landing that is expected is prepared for this long.
   double brake_s = 0.06;    ///< Time in which a foot stops that bears unexpectedly.
   double release_s = 0.20;  ///< Time in which a leaving foot returns to its own path.
   /// A foot that would have to stay this far from its own path is released. [legs]
