@@ -304,7 +304,7 @@ int run(const fs::path& mocap, const fs::path& library) {
                    {"ask worst us", 1}};
   table.notes = {
       "misasked: ask_steer() differs in arrival, or its time by more than 1 s",
-      "twist, stretch: those that hip and knee of a standing leg take over a stance"};
+      "twist, stretch: taken by hip and knee of a standing leg over a stance"};
   for (const auto& [name, file] : motions) {
     if (!fs::exists(file)) {
       std::printf("%s: no file, left out\n", name.c_str());

@@ -67,7 +67,7 @@ struct alignas(16) BlendPosture {
 };
 
 /// Places of the spine's knots, the same for all clips of a base; each ascends from 0 to
-/// 1. See retarget::RotationCurve::at.
+/// 1; the last knot may be repeated, and counts once. See retarget::RotationCurve::at.
 struct PostureLayout {
   std::array<float, kAbdomenKnots> abdomen_at{0.0F, 1.0F / 3, 2.0F / 3, 1.0F};
   std::array<float, kTorsoKnots> torso_at{0.0F, 1.0F / 3, 2.0F / 3, 1.0F};

@@ -17,8 +17,8 @@ namespace {
 constexpr double kLoopAngle_rad = 2.0 * 3.14159265358979323846 / 180.0;
 constexpr double kLoopDistance_m = 0.01;
 
-// Inserts knots in the middle of the largest gaps until there are N; even knots if there
-// are too many.
+// Fills up with the last knot, which is skipped when a curve is made: a further knot
+// would change the path of the spine. Even knots if there are too many.
 template <std::size_t N>
 std::array<float, N> knots_of(std::set<float> places) {
   places.insert(0.0F);
@@ -30,18 +30,7 @@ std::array<float, N> knots_of(std::set<float> places) {
     }
     return out;
   }
-  while (places.size() < N) {
-    float start = 0.0F;
-    float width = 0.0F;
-    for (auto it = places.begin(); std::next(it) != places.end(); ++it) {
-      const float gap = *std::next(it) - *it;
-      if (gap > width + 1e-6F) {
-        width = gap;
-        start = *it;
-      }
-    }
-    places.insert(start + 0.5F * width);
-  }
+  out.fill(1.0F);
   std::copy(places.begin(), places.end(), out.begin());
   return out;
 }

@@ -96,11 +96,13 @@ void set_curve(const BlendPosture& posture,
                const std::array<float, N>& at,
                const glm::dquat& heading,
                retarget::RotationCurve& out) {
-  out.count = static_cast<int>(N);
+  std::size_t count = 0;
   for (std::size_t i = 0; i < N; ++i) {
-    out.at[i] = static_cast<double>(at[i]);
-    out.rotation[i] = heading * rotation_at(posture, first + i);
+    if (i > 0 && at[i] <= at[i - 1]) continue;
+    out.at[count] = static_cast<double>(at[i]);
+    out.rotation[count++] = heading * rotation_at(posture, first + i);
   }
+  out.count = static_cast<int>(count);
 }
 
 template <std::size_t N>
