@@ -36,10 +36,12 @@ static_assert(std::atomic<int>::is_always_lock_free, "a handler may use it");
 // A global, because a signal handler has no argument.
 std::array<PartialPath, 16> partial_paths;  // NOLINT(*-non-const-global-variables)
 
-/// Also differs between the processes of one fork.
-std::string word_of_process() {
+/// Differs between processes, also those of one fork, and is never used again: another
+/// process could otherwise hold a file of that name for stale and remove the next one.
+std::string next_word() {
   static const std::string word = std::to_string(std::random_device()());
-  return word + std::to_string(::getpid());
+  static std::atomic<unsigned> count{0};
+  return word + std::to_string(::getpid()) + std::to_string(count.fetch_add(1));
 }
 
 void remember(const std::string& path) {
@@ -76,11 +78,18 @@ Status make_parent_folder(const fs::path& path) {
 /// an unlocked partial file has no writer.
 class Lock {
  public:
-  explicit Lock(const fs::path& path)
+  enum class Wait { kNo, kYes };
+
+  Lock(const fs::path& path, Wait wait)
       : fd_(::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)) {
-    if (fd_ < 0) return;
+    if (fd_ < 0) {
+      is_removed_ = errno == ENOENT;
+      return;
+    }
+    const int operation = wait == Wait::kYes ? LOCK_EX : LOCK_EX | LOCK_NB;
     is_held_ = ::fstat(fd_, &stat_) == 0 && S_ISREG(stat_.st_mode) &&
-               ::flock(fd_, LOCK_EX | LOCK_NB) == 0 && ::fstat(fd_, &stat_) == 0;
+               ::flock(fd_, operation) == 0 && ::fstat(fd_, &stat_) == 0;
+    is_removed_ = is_held_ && stat_.st_nlink == 0;
   }
   ~Lock() {
     if (fd_ >= 0) ::close(fd_);
@@ -89,8 +98,8 @@ class Lock {
   Lock& operator=(const Lock&) = delete;
 
   [[nodiscard]] bool is_held() const { return is_held_; }
-  /// Another process removed the file between its opening and its lock.
-  [[nodiscard]] bool is_removed() const { return is_held_ && stat_.st_nlink == 0; }
+  /// Another process removed the file before its lock.
+  [[nodiscard]] bool is_removed() const { return is_removed_; }
   [[nodiscard]] bool is_ours_alone() const {
     return is_held_ && stat_.st_nlink == 1 && stat_.st_uid == ::geteuid();
   }
@@ -100,6 +109,7 @@ class Lock {
  private:
   int fd_ = -1;
   bool is_held_ = false;
+  bool is_removed_ = false;
   struct stat stat_ {};
 };
 
@@ -117,7 +127,7 @@ bool is_partial_of(std::string_view found, std::string_view name) {
 /// Removes the partial files that no process has locked.
 void remove_unlocked(const std::vector<fs::path>& partials) {
   for (const fs::path& partial : partials) {
-    const Lock lock(partial);
+    const Lock lock(partial, Lock::Wait::kNo);
     if (lock.is_ours_alone()) ::unlink(partial.c_str());
   }
 }
@@ -154,8 +164,7 @@ Error disk_error(const fs::path& path, const std::string& what, int error) {
 }  // namespace
 
 AtomicFile::AtomicFile(fs::path path)
-    : path_(std::move(path)),
-      partial_(path_.string() + "." + word_of_process() + ".partial") {}
+    : path_(std::move(path)), partial_(path_.string() + "." + next_word() + ".partial") {}
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : path_(std::move(other.path_)),
@@ -185,12 +194,13 @@ void AtomicFile::unlock() {
 }
 
 bool AtomicFile::open_partial() {
-  // Another process may treat a file without a lock as stale: then repeat.
+  // Another process may treat a file without a lock as stale, lock and remove it: then
+  // wait for the end of its lock, and repeat.
   for (int attempt = 0; attempt < 10; ++attempt) {
     errno = 0;
     stream_.open(partial_, std::ios::binary | std::ios::trunc);
     if (!stream_) return false;
-    Lock lock(partial_);
+    Lock lock(partial_, Lock::Wait::kYes);
     if (!lock.is_removed()) {
       lock_fd_ = lock.release();
       return true;

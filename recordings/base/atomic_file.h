@@ -19,10 +19,10 @@ enum class OnDisk {
   kNow,    ///< Before it appears at its path (fsync): some milliseconds.
 };
 
-/// A file that is written next to its final path (PATH.WORD.partial, with a word unique
-/// to this process, so that two programs never write into the same file). commit() moves
-/// it to PATH, complete and at once; without commit(), or after any failure, no file is
-/// left behind. The partial file is locked during writing. The partial file of a killed
+/// A file that is written next to its final path (PATH.WORD.partial, with a word that is
+/// used once, so that two writers never write into the same file). commit() moves it to
+/// PATH, complete and at once; without commit(), or after any failure, no file is left
+/// behind. The partial file is locked during writing. The partial file of a killed
 /// process is not locked, and the next process that creates the same file removes it.
 ///
 ///   Result<AtomicFile> file = AtomicFile::create(path);

@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -116,6 +117,28 @@ pid_t start_writer(const fs::path& path, int ready, bool is_killed) {
   (void)!write(ready, "r", 1);
   if (is_killed) (void)raise(SIGKILL);
   for (;;) pause();
+}
+
+TEST(AtomicFile, ProcessesThatWriteTheSameFileAtOnceAllSucceed) {
+  const ScratchFolder folder;
+  std::vector<pid_t> writers;
+  for (int i = 0; i < 4; ++i) {
+    const pid_t child = fork();
+    if (child == 0) {
+      bool all = true;
+      for (int k = 0; k < 1000 && all; ++k) {
+        all = bool(write_file(folder / "a.txt", "same", OnDisk::kNow));
+      }
+      _exit(all ? 0 : 1);
+    }
+    writers.push_back(child);
+  }
+  for (const pid_t writer : writers) {
+    int status = -1;
+    ASSERT_EQ(waitpid(writer, &status, 0), writer);
+    EXPECT_EQ(status, 0);
+  }
+  EXPECT_EQ(files_in(folder), std::vector<std::string>{"a.txt"});
 }
 
 TEST(AtomicFile, RemovesTheFilesThatAKilledProcessLeft) {
@@ -248,13 +271,17 @@ TEST(AtomicFile, DeclinesAFolderWhereAFileIs) {
 TEST(AtomicFile, AFullDiskIsADeviceErrorAndLeavesNothing) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this machine";
   const ScratchFolder folder;
-  // The word in its name is that of this process, so the next file has the same name.
-  fs::path partial;
-  {
+  // The word in its name ends with a count of files.
+  constexpr std::string_view kEnd = ".partial";
+  std::string name;
+  while (name.empty() || *name.rbegin() == '9') {
     const Result<AtomicFile> file = AtomicFile::create(folder / "a.txt");
     ASSERT_TRUE(file);
-    partial = folder / files_in(folder).at(0);
+    name = files_in(folder).at(0);
+    name.erase(name.size() - kEnd.size());
   }
+  ++*name.rbegin();
+  const fs::path partial = folder / (name + std::string(kEnd));
   fs::create_symlink("/dev/full", partial);
   const Status status = write_file(folder / "a.txt", "a");
   ASSERT_FALSE(status);
