@@ -46,6 +46,7 @@ Result<Engine> Engine::make(std::shared_ptr<const MotionBase> base,
 }
 
 Result<CharacterId> Engine::add(CharacterSpec spec) {
+  MAREY_ASSERT(!is_stepping_);
   const std::string where = "character \"" + spec.character.name + "\"";
   if (!std::isfinite(spec.start.x_m + spec.start.z_m + spec.start.heading_rad)) {
     return bad_input(where, "its start is not finite", "give a place on the floor");
@@ -56,6 +57,7 @@ Result<CharacterId> Engine::add(CharacterSpec spec) {
   auto player = CharacterPlayer::make(base_, std::move(spec));
   if (!player) return player.error();
   characters_.push_back(*std::move(player));
+  stepped_.push_back(steps_);
   return CharacterId{static_cast<int>(characters_.size()) - 1};
 }
 
@@ -174,18 +176,39 @@ Status Engine::stop_all(CharacterId character, std::optional<int> layer) {
 }
 
 void Engine::advance(int steps) {
-  MAREY_ASSERT(steps >= 0);
+  MAREY_ASSERT(steps >= 0 && !is_stepping_);
   for (int i = 0; i < steps; ++i) {
-    ++steps_;
-    const double now_s = time_s();
-    if (options_.threads == 1) {
-      for (CharacterPlayer& character : characters_) character.step(now_s, step_s());
-    } else {
+    begin_step();
+    if (options_.threads > 1) {
       in_parallel(characters_.size(),
                   static_cast<std::size_t>(options_.threads),
-                  [&](std::size_t c) { characters_[c].step(now_s, step_s()); });
+                  [&](std::size_t c) { step(CharacterId{static_cast<int>(c)}); });
     }
+    end_step();
   }
+}
+
+void Engine::begin_step() {
+  MAREY_ASSERT(!is_stepping_);
+  is_stepping_ = true;
+  ++steps_;
+}
+
+void Engine::step(CharacterId character) {
+  MAREY_ASSERT(is_stepping_);
+  CharacterPlayer& who = player(character);
+  std::int64_t& last = stepped_[static_cast<std::size_t>(character)];
+  MAREY_ASSERT(last < steps_);
+  last = steps_;
+  who.step(time_s(), step_s());
+}
+
+void Engine::end_step() {
+  MAREY_ASSERT(is_stepping_);
+  for (std::size_t c = 0; c < characters_.size(); ++c) {
+    if (stepped_[c] < steps_) step(CharacterId{static_cast<int>(c)});
+  }
+  is_stepping_ = false;
 }
 
 double Engine::time_s() const {
