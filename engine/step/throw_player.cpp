@@ -16,6 +16,7 @@ namespace {
 // order is below 1e-4 of the speed of a throw, that of rounding below 1e-3 m/s.
 constexpr double kInstant_s = 1e-3;
 constexpr double kSameInstant_s = 1e-6;
+constexpr double kCarryFilter_s = 0.03;
 constexpr int kMaxReplans = 6;
 // A transition of the legs is not disturbed by the instant unless the release is near.
 constexpr double kNear_s = 0.5;
@@ -117,12 +118,15 @@ void ThrowPlayer::rehearse(const ThrowStage& stage, const ThrowInstant& at_relea
                       posed.heading_rad - blend.heading_rad};
 }
 
-// The hips as adapted carry the wrist until the release and from then on, so that the
-// constraints start and stop where the hand is.
-glm::dvec3 ThrowPlayer::carried(const BodyShift& shift, double time_s) const {
-  const double into = smooth_step((time_s - begin_s_) / (release_s_ - begin_s_));
-  const double out = smooth_step((time_s - release_s_) / wish_.half_width_s);
-  return (time_s < release_s_ ? 1.0 - into : out) * shift.hips_m;
+// The hips as adapted carry the wrist at the begin and the end, so that the constraints
+// start and stop where the hand is. What the hand's own constraints do to the hips must
+// not move the hand: the loop would amplify it.
+glm::dvec3 ThrowPlayer::carried(double time_s) const {
+  if (time_s < release_s_) {
+    const double into = smooth_step((time_s - begin_s_) / (release_s_ - begin_s_));
+    return (1.0 - into) * carries_from_m_;
+  }
+  return smooth_step((time_s - release_s_) / wish_.half_width_s) * carries_to_m_;
 }
 
 void ThrowPlayer::measure(const ThrowStage& stage) {
@@ -133,7 +137,7 @@ void ThrowPlayer::measure(const ThrowStage& stage) {
     if (!rehearsal_.predict(stage.time_s, at_s, stage.blend)) return;
     const RigidTransform hand = posed_wrist(rehearsal_.joints(), *map_, wish_.side);
     set_hand(stage,
-             hand.translation + course_.planned(at_s).value + carried(stage.shift, at_s),
+             hand.translation + course_.planned(at_s).value + carried(at_s),
              hand.rotation);
     const auto joints =
         rehearsal_.adapt(at_s, stage.shift, stage.supports, stage.adapter);
@@ -164,6 +168,7 @@ void ThrowPlayer::hold_hand(const ThrowStage& stage) {
   turn.start(stage.time_s - stage.step_s);
   begin_s_ = stage.time_s - stage.step_s;
   hips_from_blend_ = {stage.shift.hips_m.x, stage.shift.hips_m.z, 0.0};
+  carries_from_m_ = stage.shift.hips_m;
   holds_ = true;
 }
 
@@ -217,10 +222,13 @@ void ThrowPlayer::step(const ThrowStage& stage) {
       (void)forecast(stage, input.clip_at_release);
     }
   }
+  if (result_) {
+    carries_to_m_ += std::min(1.0, stage.step_s / kCarryFilter_s) *
+                     (stage.shift.hips_m - carries_to_m_);
+  }
   input.release_s = release_s_;
   const ThrowOutput output = course_.step(input);
-  set_hand(
-      stage, output.wrist.p_in_world + carried(stage.shift, stage.time_s), now.rotation);
+  set_hand(stage, output.wrist.p_in_world + carried(stage.time_s), now.rotation);
   if (stage.time_s >= release_s_ + wish_.half_width_s) {
     drop(stage.time_s, stage.point, stage.turn);
   }

@@ -129,7 +129,7 @@ class ThrowPlayer {
   void set_hand(const ThrowStage& stage,
                 const glm::dvec3& wrist_in_world,
                 const glm::dquat& world_from_hand) const;
-  [[nodiscard]] glm::dvec3 carried(const BodyShift& shift, double time_s) const;
+  [[nodiscard]] glm::dvec3 carried(double time_s) const;
 
   const Skeleton* skeleton_;
   const retarget::BodyMap* map_;
@@ -151,9 +151,11 @@ class ThrowPlayer {
   double begin_s_ = 0.0;    ///< When the constraints start.
   double rate_ = 1.0;       ///< For the action.
   int replans_ = 0;
-  bool holds_ = false;         ///< The constraints are active.
-  bool aim_in_range_ = true;   ///< The last aim can be met.
-  double aim_time_s_ = 0.0;    ///< Flight to the aim.
+  bool holds_ = false;        ///< The constraints are active.
+  bool aim_in_range_ = true;  ///< The last aim can be met.
+  double aim_time_s_ = 0.0;   ///< Flight to the aim.
+  glm::dvec3 carries_from_m_{0.0};
+  glm::dvec3 carries_to_m_{0.0};
   RootPlace hips_from_blend_;  ///< At the release: of the posed body, in the world.
   std::optional<ThrowResult> result_;
   Rehearsal rehearsal_;
