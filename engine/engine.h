@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -71,6 +72,18 @@ class Engine {
   /// Errors: those of play().
   [[nodiscard]] Result<ReachFeasibility> ask(CharacterId character,
                                              const ReachWish& wish) const;
+  /// Requests a throw. It replaces an earlier throw of that hand. CharacterPlayer::
+  /// throwing() has the result after the release. Errors: those of an action and of
+  /// ThrowPlayer::make(); a character without CharacterSpec::reaches.
+  [[nodiscard]] Result<ActionId> play(CharacterId character, const ThrowWish& wish);
+  /// Moves the point that the ball of a hand is to meet. Errors: the hand does not throw;
+  /// ThrowPlayer::aim()'s.
+  [[nodiscard]] Status aim_ball(CharacterId character,
+                                int side,
+                                const glm::dvec3& p_in_world);
+  /// Answers whether a throw can succeed, without playing it. Errors: those of play().
+  [[nodiscard]] Result<ThrowFeasibility> ask(CharacterId character,
+                                             const ThrowWish& wish) const;
   /// Fades an action out, or takes a waiting one back. Error: it is over or unknown.
   [[nodiscard]] Status stop(CharacterId character, ActionId action);
   /// Fades out all actions of a layer; nullopt means all layers.
@@ -111,6 +124,12 @@ class Engine {
   [[nodiscard]] Result<ReachPlayer> made_reach(CharacterId character,
                                                const Action& action,
                                                const ReachWish& wish) const;
+  [[nodiscard]] Status check_hand(CharacterId character,
+                                  const std::string& clip,
+                                  int side) const;
+  [[nodiscard]] Result<ThrowPlayer> made_throw(CharacterId character,
+                                               Action action,
+                                               const ThrowWish& wish) const;
   ActionId add_action(CharacterId character, Action action);
 
   std::shared_ptr<const MotionBase> base_;

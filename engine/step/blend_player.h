@@ -61,8 +61,9 @@ class BlendPlayer {
 
   [[nodiscard]] const BlendPosture& posture() const { return shown_; }
   [[nodiscard]] const RootPlace& root() const { return root_; }
-  /// Predicts posture and root at a later time if nothing changes: from the clips alone,
-  /// at their present warps. False: nothing plays. Allocates nothing.
+  /// Predicts posture and root at a later time if nothing changes: from the clips at
+  /// their present warps and the offsets as they decay. False: nothing plays. Allocates
+  /// nothing.
   [[nodiscard]] bool predict(double now_s,
                              double time_s,
                              BlendPosture& posture,
