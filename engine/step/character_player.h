@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/feet/floor_level.h"
 #include "engine/feet/foot_hold.h"
 #include "engine/step/blend_player.h"
 #include "engine/step/reach_player.h"
@@ -102,7 +103,7 @@ class CharacterPlayer {
                   CharacterSpec spec,
                   retarget::Adapter adapter);
   [[nodiscard]] FootReference foot_reference(std::size_t side, double time_s) const;
-  void add_landing(std::size_t side, double time_s, FootReference& out) const;
+  void meet_floor(double step_s);
   void hold_feet(double time_s, double step_s);
   void steer_root(double time_s, double step_s);
   void move_hands(double time_s, double step_s);
@@ -120,6 +121,7 @@ class CharacterPlayer {
   std::array<std::optional<ReachPlayer>, 2> reaches_{};
   std::optional<SteerPlayer> steer_;
   std::array<FootHold, 2> feet_{};
+  FloorLevel floor_;
   std::array<glm::dvec2, 2> ankle_xz_m_{};     ///< As the feet stood in the last step.
   std::array<std::array<bool, 2>, 2> bore_{};  ///< [foot][heel, ball], with hysteresis.
   retarget::NormalizedPose normalized_;
