@@ -262,6 +262,28 @@ bool BlendPlayer::predict(double now_s,
   return true;
 }
 
+PerFootPart BlendPlayer::predict_bears(double time_s) const {
+  std::array<const Action*, kMaxActions> list{};
+  const std::size_t count = alive(list);
+  std::array<PerGroup, kMaxActions> weights{};
+  action_weights({list.data(), count}, time_s, {weights.data(), count});
+  PerFootPart bears{};
+  std::array<double, 2> total{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const unsigned bits =
+        bearing_at(base_->clip(list[i]->clip), list[i]->warp.source_s(time_s));
+    for (std::size_t part = 0; part < 4; ++part) {
+      const double leg = static_cast<double>(weights[i][kLeftLegGroup + part / 2]);
+      if (part % 2 == 0) total[part / 2] += leg;
+      if ((bits >> part & 1U) != 0U) bears[part] += leg;
+    }
+  }
+  for (std::size_t part = 0; part < 4; ++part) {
+    if (total[part / 2] > 0.0) bears[part] /= total[part / 2];
+  }
+  return bears;
+}
+
 PhaseWarp* BlendPlayer::warp(ActionId id) {
   Action* action = find_mutable(id);
   return action == nullptr || !action->is_alive() ? nullptr : &action->warp;

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/feet/floor_level.h"
 #include "engine/feet/foot_hold.h"
 #include "engine/step/blend_player.h"
 #include "engine/step/reach_player.h"
@@ -110,7 +111,7 @@ class CharacterPlayer {
                   CharacterSpec spec,
                   retarget::Adapter adapter);
   [[nodiscard]] FootReference foot_reference(std::size_t side, double time_s) const;
-  void add_landing(std::size_t side, double time_s, FootReference& out) const;
+  void meet_floor(double step_s);
   void hold_feet(double time_s, double step_s);
   void steer_root(double time_s, double step_s);
   void move_throws(double time_s, double step_s);
@@ -132,6 +133,7 @@ class CharacterPlayer {
   BodyShift shift_;  ///< After the last step.
   double time_s_ = 0.0;
   std::array<FootHold, 2> feet_{};
+  FloorLevel floor_;
   std::array<glm::dvec2, 2> ankle_xz_m_{};     ///< As the feet stood in the last step.
   std::array<std::array<bool, 2>, 2> bore_{};  ///< [foot][heel, ball], with hysteresis.
   retarget::NormalizedPose normalized_;
