@@ -101,6 +101,10 @@ class CharacterPlayer {
   [[nodiscard]] std::optional<retarget::Adapter::Handle> constraint(std::string_view id) {
     return adapter_->constraint(id);
   }
+  /// Picks up or puts down a load of the character; see Adapter::carry().
+  bool carry(std::string_view load, bool carried) {
+    return adapter_->carry(load, carried);
+  }
   /// Changes the level: over 0.2 s from and to kBlended. kKinetic needs a spec of
   /// kKinetic.
   void set_level(DetailLevel level) { level_ = level; }
