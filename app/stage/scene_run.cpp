@@ -146,9 +146,13 @@ void SceneRun::State::order_bodies(double time_s) {
 }
 
 void SceneRun::State::keep_step() {
-  for (std::size_t i = 0; i < record.steps.size(); ++i) {
+  for (std::size_t i = 0; i < record.tracks.size(); ++i) {
     const engine::CharacterPlayer& player = engine.player(id_of(i));
-    record.steps[i].push_back({player.pose(), player.report().stands});
+    StageTrack& track = record.tracks[i];
+    track.poses.push_back(player.pose());
+    track.references.push_back(player.reference());
+    track.stands.push_back(player.report().stands);
+    track.floor_moved_m.push_back({});
   }
   for (StageTargetTrack& track : record.targets) {
     const auto use = std::find_if(uses.begin(), uses.end(), [&](const TargetUse& u) {
@@ -191,7 +195,7 @@ Result<SceneRun> SceneRun::make(SceneRunInput input) {
   record.base = in.base;
   if (in.records) {
     record.bodies = in.bodies;
-    record.steps.resize(in.bodies.size());
+    record.tracks.resize(in.bodies.size());
     for (const TargetUse& use : state->uses) {
       record.targets.push_back({use.target, use.user, {}});
     }
