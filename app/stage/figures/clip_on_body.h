@@ -31,7 +31,9 @@ class ClipOnBody {
 
   /// Computes the joints in the world at a time of the clip, from its start at the
   /// origin. A clip that loops has cycles at any time; another one is clamped.
-  [[nodiscard]] std::span<const RigidTransform> joints_at(double clip_s);
+  std::span<const RigidTransform> joints_at(double clip_s);
+  /// The pose of the last joints_at().
+  [[nodiscard]] const Pose& pose() const { return pose_; }
   [[nodiscard]] const MotionClip& clip() const { return clip_; }
 
  private:
