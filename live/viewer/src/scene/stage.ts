@@ -37,6 +37,8 @@ export interface StageListener {
   /** Frames the whole scene again, instead of the bodies at this instant. */
   reset?(): void;
   drag?(id: string, p_in_world: Vector, phase: DragPhase): void;
+  /** A handle was clicked twice; without it, a double click on it resets the view. */
+  release?(id: string): void;
   /** A drag ended with Escape; without it, Escape does nothing. */
   dropDrag?(id: string): void;
   trouble(text: string): void;
@@ -98,8 +100,11 @@ export class Stage {
     this.element = el('div', {class: 'stage'}, canvas, this.labels.element);
     this.drags = listener.drag ? new HandleDrag(this.renderer, this.handles,
       (id, p_in_world, phase) => listener.drag!(id, p_in_world, phase),
-      listener.dropDrag ? (id) => listener.dropDrag!(id) : undefined) : null;
-    canvas.addEventListener('dblclick', () => this.reset());
+      {giveUp: listener.dropDrag && ((id) => listener.dropDrag!(id)),
+        release: listener.release && ((id) => listener.release!(id))}) : null;
+    canvas.addEventListener('dblclick', () => {
+      if (!this.drags?.hasReleased) this.reset();
+    });
     theme.onChange(() => this.paint());
     this.paint();
   }
@@ -141,6 +146,12 @@ export class Stage {
   setConstraints(constraints: readonly ConstraintWords[]): void {
     this.handles.set(constraints, this.words?.skeletons ?? [], this.drags?.inHand ?? null);
     this.takeAlong();
+    this.renderer.invalidate();
+  }
+
+  /** Moves the targets of a running scene. */
+  setTargets(p_in_world: readonly Vector[], held: readonly boolean[]): void {
+    this.handles.setTargets(p_in_world, held, this.drags?.inHand ?? null);
     this.renderer.invalidate();
   }
 
