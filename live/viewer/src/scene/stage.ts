@@ -6,6 +6,7 @@
 import type {Object3D} from 'three';
 import {BodyView} from './body_view';
 import type {Shown, SkinLoader} from './body_view';
+import {CrowdView} from './crowd_view';
 import {ConstraintView} from './constraint_view';
 import type {PointBlock} from '../protocol/decode_blocks';
 import type {SceneFrame} from '../protocol/decode_frame';
@@ -26,6 +27,8 @@ import {RigView} from './rig_view';
 import type {Theme} from '../base/theme';
 
 const MOST_POINT_NAMES = 80;
+/** More bodies than this are drawn as one mesh, without their names. */
+const MOST_SINGLE_BODIES = 12;
 const ROOM_HEIGHT = 0.4; // Angle of the eye above the horizon. [rad]
 const NAME_ABOVE_M = 0.2; // Height of names above the highest joint, which is below the top of the head.
 
@@ -81,6 +84,7 @@ export class Stage {
   private readonly still = window.matchMedia('(prefers-reduced-motion: reduce)');
   private readonly parts: StagePart[] = [];
   private bodies: BodyView[] = [];
+  private crowd: CrowdView | null = null;
   private points: PointsView | null = null;
   private readonly drags: HandleDrag | null;
   private words: StageWords | null = null;
@@ -112,13 +116,16 @@ export class Stage {
   /** `poses`: one per skeleton; without them, frames have rotations of joints. */
   setScene(words: StageWords, poses?: readonly Pose[]): void {
     for (const body of this.bodies) body.dispose();
+    this.crowd?.dispose();
+    const isCrowd = words.skeletons.length > MOST_SINGLE_BODIES &&
+      words.skeletons.every(({skin}) => skin === null);
     if (this.points) this.points.object.removeFromParent();
     this.points?.dispose();
     this.words = words;
     this.floor.height_m = words.floor?.height_m ?? 0;
     this.bodies = words.skeletons.map((skeleton, i) => {
       const body = new BodyView(skeleton, poses?.[i] ?? new PosedSkeleton(skeleton), this.shown,
-        this.floor.height_m, this.options.solid ?? false, i === this.options.ghost);
+        this.floor.height_m, this.options.solid ?? false, i === this.options.ghost, isCrowd);
       if (skeleton.skin && this.options.load_skin) {
         void body.dress(this.options.load_skin, (trouble) => {
           if (trouble) this.listener.trouble(trouble);
@@ -128,6 +135,9 @@ export class Stage {
       this.renderer.scene.add(body.object);
       return body;
     });
+    this.crowd = isCrowd ? new CrowdView(this.bodies.map(({pose, words: {offset_m}}) =>
+      ({pose, offset_m}))) : null;
+    if (this.crowd) this.renderer.scene.add(this.crowd.object);
     this.rig.set(words.cameras, this.options.pyramid_m);
     this.points = words.points ? new PointsView(words.points.labels) : null;
     if (this.points) this.renderer.scene.add(this.points.object);
@@ -157,7 +167,10 @@ export class Stage {
 
   /** Shows this instant. Precondition: it belongs to the scene set last. */
   show(frame: SceneFrame): void {
-    this.bodies.forEach((body, i) => body.update(frame.skeletons[i]));
+    this.bodies.forEach((body, i) => {
+      body.update(frame.skeletons[i]);
+      this.crowd?.update(i, body.object.visible, this.floor.height_m);
+    });
     this.takeAlong();
     if (!this.framed && this.first()) {
       this.frameBodies(true, this.firstAzimuth());
@@ -274,7 +287,7 @@ export class Stage {
   }
 
   private paint(): void {
-    for (const part of [this.floor, this.rig, this.handles, this.points, ...this.bodies,
+    for (const part of [this.floor, this.rig, this.handles, this.points, this.crowd, ...this.bodies,
       ...this.parts]) {
       part?.paint(this.theme);
     }
@@ -319,7 +332,7 @@ export class Stage {
     const {labels, renderer: {camera, width, height}, words} = this;
     labels.begin(width, height);
     if (this.shown.names && words) {
-      for (const body of this.bodies) {
+      for (const body of this.crowd ? [] : this.bodies) {
         if (!body.object.visible || body.isGhost) continue;
         const [dx, dy, dz] = body.words.offset_m;
         const p = body.pose.p_in_world;
