@@ -106,7 +106,18 @@ class BlendRecorder {
     }
   }
 
-  [[nodiscard]] const PlayedBlend& played() const { return out_; }
+  /// True when B has ended.
+  [[nodiscard]] bool is_over() const {
+    const MotionClip& clip = inputs_.to_clip();
+    const double cycles = clip.loops ? 2.0 : 1.0;
+    const double first_s = clip.loops ? out_.entry_s : 0.0;
+    const double played_s = out_.frames.back().source_s[1] - first_s;
+    return engine_.phase(who_, *to_) == engine::ActionPhase::kDone ||
+           played_s >= cycles * clip.duration_s() - 1e-6;
+  }
+  [[nodiscard]] int frame_count() const {
+    return static_cast<int>(out_.motion.poses.size());
+  }
   [[nodiscard]] PlayedBlend take() { return std::move(out_); }
 
  private:
@@ -118,16 +129,6 @@ class BlendRecorder {
   bool is_entered_ = false;
   PlayedBlend out_;
 };
-
-/// True after the last frame of a result whose duration was not given.
-bool is_over(const BlendInputs& inputs, const PlayedBlend& played) {
-  const MotionClip& to = inputs.to_clip();
-  const double cycles = to.loops ? 2.0 : 1.0;
-  const double first_s = to.loops ? played.entry_s : 0.0;
-  const auto since = static_cast<int>(played.frames.size()) - 1 - played.switch_frame;
-  return played.frames.back().source_s[1] - first_s >= cycles * to.duration_s() - 1e-6 ||
-         since >= steps_of(kMost_s);
-}
 
 }  // namespace
 
@@ -162,11 +163,10 @@ Result<PlayedBlend> play_blend(const BlendArguments& args, const BlendInputs& in
   const auto to = engine->play(*who, wish);
   if (!to) return to.error();
   recorder.switch_to(*to);
-  const int last = args.seconds ? steps_of(*args.seconds) : 0;
+  const int last = steps_of(args.seconds.value_or(args.at_s + kMost_s));
   do {
     recorder.step();
-  } while (args.seconds ? static_cast<int>(recorder.played().frames.size()) < last
-                        : !is_over(inputs, recorder.played()));
+  } while (recorder.frame_count() < last && (args.seconds || !recorder.is_over()));
   return recorder.take();
 }
 
