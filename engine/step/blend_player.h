@@ -81,6 +81,10 @@ class BlendPlayer {
   [[nodiscard]] const PerFootPart& bears() const { return bears_; }
   [[nodiscard]] const TransitionReport& report() const { return report_; }
 
+  /// Share with which feet, and not the blend alone, move the root: 1 in transitions of
+  /// the legs, 0 without.
+  [[nodiscard]] double anchored() const;
+
   /// The action with the greatest weight on the legs; nullptr: none.
   [[nodiscard]] const Action* lead() const;
   /// Weight of each action on each group in the last step, in the order of actions().

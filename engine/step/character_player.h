@@ -13,6 +13,7 @@
 
 #include "engine/feet/floor_level.h"
 #include "engine/feet/foot_hold.h"
+#include "engine/feet/root_pull.h"
 #include "engine/step/blend_player.h"
 #include "engine/step/reach_player.h"
 #include "engine/step/rehearsal.h"
@@ -138,6 +139,7 @@ class CharacterPlayer {
   double time_s_ = 0.0;
   std::array<FootHold, 2> feet_{};
   FloorLevel floor_;
+  RootPull pull_;
   std::array<glm::dvec2, 2> ankle_xz_m_{};     ///< As the feet stood in the last step.
   std::array<std::array<bool, 2>, 2> bore_{};  ///< [foot][heel, ball], with hysteresis.
   retarget::NormalizedPose normalized_;
