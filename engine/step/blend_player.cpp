@@ -38,6 +38,14 @@ void decay(double& value, double& rate, double half_life_s, double step_s) {
   rate = (rate - j * y * step_s) * e;
 }
 
+// Integral of the decay of decay() over a time.
+double decay_sum(double value, double rate, double half_life_s, double time_s) {
+  const double y = 2.0 * 0.6931471805599453 / half_life_s;
+  const double j = rate + value * y;
+  const double e = std::exp(-y * time_s);
+  return (value + j / y) / y - e * ((value + j * time_s) / y + j / (y * y));
+}
+
 }  // namespace
 
 /// The blend of all alive actions at one time.
@@ -237,8 +245,43 @@ bool BlendPlayer::predict(double now_s,
   Blend blend;
   if (!blend_at(time_s, now_s, sides, weights, blend)) return false;
   posture = blend.posture;
-  root = moved(root_, blend.root_step);
+  RootPlace step = blend.root_step;
+  const double ahead_s = std::max(0.0, time_s - now_s);
+  if (offset_.is_active()) {
+    InertialOffset offset = offset_;
+    offset.step(
+        static_cast<float>(ahead_s), static_cast<float>(options_.half_life_s), posture);
+  }
+  const auto sum = [&](double value, double rate) {
+    return decay_sum(value, rate, options_.half_life_s, ahead_s);
+  };
+  step.x_m += sum(root_offset_.x_m, root_offset_rate_.x_m);
+  step.z_m += sum(root_offset_.z_m, root_offset_rate_.z_m);
+  step.heading_rad += sum(root_offset_.heading_rad, root_offset_rate_.heading_rad);
+  root = moved(root_, step);
   return true;
+}
+
+PerFootPart BlendPlayer::predict_bears(double time_s) const {
+  std::array<const Action*, kMaxActions> list{};
+  const std::size_t count = alive(list);
+  std::array<PerGroup, kMaxActions> weights{};
+  action_weights({list.data(), count}, time_s, {weights.data(), count});
+  PerFootPart bears{};
+  std::array<double, 2> total{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const unsigned bits =
+        bearing_at(base_->clip(list[i]->clip), list[i]->warp.source_s(time_s));
+    for (std::size_t part = 0; part < 4; ++part) {
+      const double leg = static_cast<double>(weights[i][kLeftLegGroup + part / 2]);
+      if (part % 2 == 0) total[part / 2] += leg;
+      if ((bits >> part & 1U) != 0U) bears[part] += leg;
+    }
+  }
+  for (std::size_t part = 0; part < 4; ++part) {
+    if (total[part / 2] > 0.0) bears[part] /= total[part / 2];
+  }
+  return bears;
 }
 
 PhaseWarp* BlendPlayer::warp(ActionId id) {

@@ -61,12 +61,15 @@ class BlendPlayer {
 
   [[nodiscard]] const BlendPosture& posture() const { return shown_; }
   [[nodiscard]] const RootPlace& root() const { return root_; }
-  /// Predicts posture and root at a later time if nothing changes: from the clips alone,
-  /// at their present warps. False: nothing plays. Allocates nothing.
+  /// Predicts posture and root at a later time if nothing changes: from the clips at
+  /// their present warps and the offsets as they decay. False: nothing plays. Allocates
+  /// nothing.
   [[nodiscard]] bool predict(double now_s,
                              double time_s,
                              BlendPosture& posture,
                              RootPlace& root) const;
+  /// Predicts the share with which each part of the feet will bear, likewise.
+  [[nodiscard]] PerFootPart predict_bears(double time_s) const;
   /// The warp of an action that plays; nullptr: it does not.
   [[nodiscard]] PhaseWarp* warp(ActionId id);
 

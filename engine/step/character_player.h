@@ -11,10 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "engine/feet/floor_level.h"
 #include "engine/feet/foot_hold.h"
 #include "engine/step/blend_player.h"
 #include "engine/step/reach_player.h"
+#include "engine/step/rehearsal.h"
 #include "engine/step/steer_player.h"
+#include "engine/step/throw_player.h"
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -45,7 +48,8 @@ struct CharacterSpec {
   /// Constraints that may act on it. Activations begin as they state; the caller starts
   /// and moves them through constraint(). Supports of the feet are added.
   ConstraintSet constraints;
-  bool reaches = false;  ///< May play reaches: reserves constraints of both hands.
+  /// May play reaches and throws: reserves constraints of both hands.
+  bool reaches = false;
   BlendPlayerOptions blend;
   FootHoldOptions feet;
   retarget::AdaptOptions adapt;
@@ -77,6 +81,11 @@ class CharacterPlayer {
   [[nodiscard]] SteerPlayer* steering() { return steer_ ? &*steer_ : nullptr; }
   /// nullptr: that hand (0 left, 1 right) does not reach.
   [[nodiscard]] ReachPlayer* reaching(int side);
+  /// Leads a hand through a throw, instead of an earlier throw or reach of that hand.
+  void play_throw(ThrowPlayer made);
+  /// The last throw of a hand, also after it is over, for its result; nullptr: none.
+  [[nodiscard]] ThrowPlayer* throwing(int side);
+  [[nodiscard]] const ThrowPlayer* throwing(int side) const;
   [[nodiscard]] bool can_reach() const { return reach_handles_[0].has_value(); }
 
   [[nodiscard]] BlendPlayer& blend() { return blend_; }
@@ -102,9 +111,10 @@ class CharacterPlayer {
                   CharacterSpec spec,
                   retarget::Adapter adapter);
   [[nodiscard]] FootReference foot_reference(std::size_t side, double time_s) const;
-  void add_landing(std::size_t side, double time_s, FootReference& out) const;
+  void meet_floor(double step_s);
   void hold_feet(double time_s, double step_s);
   void steer_root(double time_s, double step_s);
+  void move_throws(double time_s, double step_s);
   void move_hands(double time_s, double step_s);
 
   std::shared_ptr<const Character> character_;
@@ -118,8 +128,12 @@ class CharacterPlayer {
   /// By hand: the point, then the rotation.
   std::array<std::optional<retarget::Adapter::Handle>, 4> reach_handles_{};
   std::array<std::optional<ReachPlayer>, 2> reaches_{};
+  std::array<std::optional<ThrowPlayer>, 2> throws_{};
   std::optional<SteerPlayer> steer_;
+  BodyShift shift_;  ///< After the last step.
+  double time_s_ = 0.0;
   std::array<FootHold, 2> feet_{};
+  FloorLevel floor_;
   std::array<glm::dvec2, 2> ankle_xz_m_{};     ///< As the feet stood in the last step.
   std::array<std::array<bool, 2>, 2> bore_{};  ///< [foot][heel, ball], with hysteresis.
   retarget::NormalizedPose normalized_;
