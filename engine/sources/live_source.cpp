@@ -78,9 +78,8 @@ double LiveSource::ahead_s(double time_s) const {
 }
 
 void LiveSource::take_data(double time_s, double step_s) {
-  const bool after_gap =
-      is_shown_ && newest_.time_s - shown_data_s_ > options_.gap_s &&
-      time_s - step_s - shown_data_s_ > 0.5 * options_.gap_s;
+  const bool after_gap = is_shown_ && newest_.time_s - shown_data_s_ > options_.gap_s &&
+                         time_s - step_s - shown_data_s_ > 0.5 * options_.gap_s;
   const auto half_life_s = static_cast<float>(options_.extrapolate_half_life_s);
   const double age_s = std::max(0.0, time_s - newest_.time_s);
   posture_ = newest_.posture;
@@ -93,9 +92,8 @@ void LiveSource::take_data(double time_s, double step_s) {
                 {data_root_rate_.x * gone_s,
                  data_root_rate_.z * gone_s,
                  data_root_rate_.heading * gone_s});
-  root_rate_ = {data_root_rate_.x * left,
-                data_root_rate_.z * left,
-                data_root_rate_.heading * left};
+  root_rate_ = {
+      data_root_rate_.x * left, data_root_rate_.z * left, data_root_rate_.heading * left};
   shown_data_s_ = newest_.time_s;
   is_new_ = false;
   if (after_gap) {
@@ -129,8 +127,8 @@ void LiveSource::move_root(double step_s) {
 
 void LiveSource::rate_groups(double step_s) {
   for (std::size_t g = 0; g < kGroupCount; ++g) {
-    const bool is_good =
-        !report_.is_lost && static_cast<double>(newest_.sigma_m[g]) <= options_.max_sigma_m;
+    const bool is_good = !report_.is_lost &&
+                         static_cast<double>(newest_.sigma_m[g]) <= options_.max_sigma_m;
     good_s_[g] = is_good ? good_s_[g] + static_cast<float>(step_s) : 0.0F;
     if (!is_shown_) {
       is_wanted_[g] = is_good;
@@ -158,8 +156,8 @@ void LiveSource::step(double time_s, double step_s) {
                 posture_);
     const double gone = decayed_s(step_s, options_.extrapolate_half_life_s);
     const double left = std::exp2(-step_s / options_.extrapolate_half_life_s);
-    root_ = moved(
-        root_, {root_rate_.x * gone, root_rate_.z * gone, root_rate_.heading * gone});
+    root_ = moved(root_,
+                  {root_rate_.x * gone, root_rate_.z * gone, root_rate_.heading * gone});
     out_root_rate_ = {root_rate_.x * gone / step_s,
                       root_rate_.z * gone / step_s,
                       root_rate_.heading * gone / step_s};
@@ -167,10 +165,10 @@ void LiveSource::step(double time_s, double step_s) {
   }
   move_root(step_s);
   out_ = posture_;
-  offset_.step(static_cast<float>(step_s),
-               static_cast<float>(options_.gap_half_life_s),
-               out_);
-  out_rates_ = is_shown_ ? rates_between(before, out_, static_cast<float>(step_s)) : rates_;
+  offset_.step(
+      static_cast<float>(step_s), static_cast<float>(options_.gap_half_life_s), out_);
+  out_rates_ =
+      is_shown_ ? rates_between(before, out_, static_cast<float>(step_s)) : rates_;
   now_s_ = time_s;
   report_.age_s = std::max(0.0, time_s - shown_data_s_);
   report_.is_lost = report_.age_s > options_.max_age_s;
@@ -186,7 +184,8 @@ void LiveSource::sample(double time_s, BlendPosture& out) const {
 
 RootPlace LiveSource::root_step(double from_s, double to_s) const {
   const double by_s = ahead_s(to_s) - ahead_s(from_s);
-  return {out_root_rate_.x * by_s, out_root_rate_.z * by_s, out_root_rate_.heading * by_s};
+  return {
+      out_root_rate_.x * by_s, out_root_rate_.z * by_s, out_root_rate_.heading * by_s};
 }
 
 }  // namespace marey::engine

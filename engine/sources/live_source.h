@@ -86,7 +86,7 @@ class LiveSource {
   double shown_data_s_ = 0.0;  ///< Time of the data that are shown.
   BlendPosture posture_;       ///< Data, extrapolated.
   PostureRates rates_;
-  InertialOffset offset_;      ///< From the data to the posture that is shown.
+  InertialOffset offset_;  ///< From the data to the posture that is shown.
   BlendPosture out_;
   PostureRates out_rates_;
   RootPlace root_;  ///< Data, extrapolated.

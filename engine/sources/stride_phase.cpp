@@ -85,8 +85,7 @@ std::optional<double> time_of_stride(const MotionClip& clip, double phase) {
     if (landing.foot != foot) return;
     const auto around = landings_around(clip, landing.time_s + kBefore_s);
     if (!around || around->last.foot != foot) return;
-    double at =
-        landing.time_s + share * (around->next.time_s - around->last.time_s);
+    double at = landing.time_s + share * (around->next.time_s - around->last.time_s);
     at -= std::floor(at / duration) * duration;
     if (!soonest || at < *soonest) soonest = at;
   });

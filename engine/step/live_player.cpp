@@ -81,7 +81,7 @@ void LivePlayer::step(double time_s,
   float most = 0.0F;
   for (Action& action : actions) {
     if (action.id == action_) {
-      action.share = source_.report().share;
+      action.source_share = source_.report().share;
       leads_ = action.is_alive() && action.leg_priority() > 0.0F;
     }
     if (action.is_alive()) most = std::max(most, action.leg_priority());

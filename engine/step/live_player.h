@@ -54,7 +54,10 @@ class LivePlayer {
     PhaseLock lock;
   };
   Follower* follower(const Action& action, std::span<const Action> actions);
-  void follow(Follower& by, double time_s, double step_s, const MotionClip& clip,
+  void follow(Follower& by,
+              double time_s,
+              double step_s,
+              const MotionClip& clip,
               Action& action) const;
 
   ActionId action_{};
