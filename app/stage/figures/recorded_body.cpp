@@ -68,42 +68,33 @@ const MotionClip* idle_clip(const StageRecord& record, std::size_t body) {
 }  // namespace
 
 RecordedBody::RecordedBody(const StageRecord& record, std::size_t body) {
-  const std::vector<StageStep>& steps = record.steps[body];
+  const StageTrack& track = record.tracks[body];
   const StageBody& played = record.bodies[body];
-  const std::size_t joints = played.character.skeleton.joints.size();
-  for (std::size_t step = 0; step < steps.size(); ++step) {
+  const std::size_t steps = track.poses.size();
+  times_s_.reserve(steps);
+  for (std::size_t step = 0; step < steps; ++step) {
     times_s_.push_back(record.time_s(step));
-    poses_.push_back(steps[step].pose);
-    stands_.push_back(steps[step].stands);
-    if (steps[step].reference.parent_from_joint.size() == joints) {
-      references_.push_back(steps[step].reference);
-    }
   }
-  if (references_.size() != poses_.size()) references_.clear();
-  view_ = {played.id,
-           &played.character,
-           &played.map,
-           times_s_,
-           poses_,
-           references_,
-           stands_,
-           {}};
-  if (!record.floor.parts.empty()) add_floor(record);
+  view_ = {played.id, &played.character, &played.map, times_s_, track.poses, {}, {}, {}};
+  if (track.references.size() == steps) view_.references = track.references;
+  if (track.stands.size() == steps) view_.stands = track.stands;
+  if (track.floor_moved_m.size() == steps) add_floor(record, body);
 }
 
-void RecordedBody::add_floor(const StageRecord& record) {
+void RecordedBody::add_floor(const StageRecord& record, std::size_t body) {
   FigureFrames frames(view_);
-  for (std::size_t step = 0; step < poses_.size(); ++step) {
-    const auto joints = frames.joints(poses_[step]);
+  for (std::size_t step = 0; step < view_.poses.size(); ++step) {
     std::array<FigureFloor, 2> under;
-    for (int side = 0; side < 2; ++side) {
-      const glm::dvec3 ankle = joints[index(view_.map->leg(side).end)].translation;
-      const retarget::FloorSpot spot =
-          retarget::floor_at(record.floor, {ankle.x, ankle.z}, times_s_[step]);
-      FigureFloor& out = under[static_cast<std::size_t>(side)];
-      out.normal_in_world = spot.normal_in_world;
-      if (spot.part) {
-        out.moved_m = retarget::moved_at(record.floor.parts[*spot.part], times_s_[step]);
+    for (std::size_t side = 0; side < 2; ++side) {
+      under[side].moved_m = record.tracks[body].floor_moved_m[step][side];
+    }
+    if (!record.floor.parts.empty()) {
+      const auto joints = frames.joints(view_.poses[step]);
+      for (int side = 0; side < 2; ++side) {
+        const glm::dvec3 ankle = joints[index(view_.map->leg(side).end)].translation;
+        under[static_cast<std::size_t>(side)].normal_in_world =
+            retarget::floor_at(record.floor, {ankle.x, ankle.z}, times_s_[step])
+                .normal_in_world;
       }
     }
     floor_.push_back(under);

@@ -16,7 +16,7 @@
 
 namespace marey::app {
 
-/// One body of a record in the form that figures take. Copies postures.
+/// One body of a record in the form that figures take.
 class RecordedBody {
  public:
   /// Precondition: the body exists.
@@ -27,12 +27,9 @@ class RecordedBody {
   RecordedBody& operator=(const RecordedBody&) = delete;
 
  private:
-  void add_floor(const StageRecord& record);
+  void add_floor(const StageRecord& record, std::size_t body);
 
   std::vector<double> times_s_;
-  std::vector<Pose> poses_;
-  std::vector<Pose> references_;
-  std::vector<std::array<bool, 2>> stands_;
   std::vector<std::array<FigureFloor, 2>> floor_;
   FigureBody view_;
 };
