@@ -86,6 +86,7 @@ CharacterPlayer::CharacterPlayer(std::shared_ptr<const MotionBase> base,
       level_(spec.level),
       activation_(spec.level == DetailLevel::kBlended ? 0.0 : 1.0),
       adapter_(std::make_unique<retarget::Adapter>(std::move(adapter))),
+      ground_(std::move(spec.floor)),
       world_from_joint_(character_->skeleton.joints.size()),
       reference_(rest_pose(character_->skeleton)),
       pose_(reference_) {
@@ -157,6 +158,31 @@ void CharacterPlayer::hold_feet(double time_s, double step_s) {
     now.from_reference_m = now.ankle_in_world - reference.ankle_in_world;
     supports_[side]->set_target(now.ankle_in_world);
     supports_[side]->set_orientation(now.world_from_t_pose);
+  }
+}
+
+void CharacterPlayer::ride_floor(double time_s, double step_s) {
+  if (ground_ == nullptr) return;
+  std::array<FloorRide::Foot, 2> feet{};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const StandingFoot& foot = shift_.feet[side];
+    feet[side] = {foot.stands, foot.ankle_in_world, map_->feet[side].ankle_height_m};
+  }
+  const auto shifts = ride_.step(*ground_, time_s, step_s, feet);
+  const double share = smooth_step(activation_);
+  const glm::dvec3 body_m = 0.5 * share * (shifts[0].moved_m + shifts[1].moved_m);
+  for (RigidTransform& joint : world_from_joint_) joint.translation += body_m;
+  reference_.root_in_world += body_m;
+  for (std::size_t side = 0; side < 2; ++side) {
+    StandingFoot& foot = shift_.feet[side];
+    foot.ankle_in_world += share * shifts[side].moved_m;
+    foot.from_reference_m += share * shifts[side].moved_m - body_m;
+    foot.world_from_t_pose = glm::normalize(
+        glm::slerp(glm::dquat(1.0, 0.0, 0.0, 0.0), shifts[side].turn, share) *
+        foot.world_from_t_pose);
+    supports_[side]->set_target(foot.ankle_in_world);
+    supports_[side]->set_orientation(foot.world_from_t_pose);
+    report_.floor_moved_m[side] = shifts[side].carried_m;
   }
 }
 
@@ -258,6 +284,7 @@ void CharacterPlayer::step(double time_s, double step_s) {
   // Before the feet, because a throw poses the body at other times.
   move_throws(time_s, step_s);
   hold_feet(time_s, step_s);
+  ride_floor(time_s, step_s);
   move_hands(time_s, step_s);
   report_.adapt = adapter_->adapt(reference_, time_s, pose_);
   const std::size_t hips = index(map_->hips());

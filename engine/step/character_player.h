@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/feet/floor_level.h"
+#include "engine/feet/floor_ride.h"
 #include "engine/feet/foot_hold.h"
 #include "engine/step/blend_player.h"
 #include "engine/step/reach_player.h"
@@ -53,6 +54,9 @@ struct CharacterSpec {
   BlendPlayerOptions blend;
   FootHoldOptions feet;
   retarget::AdaptOptions adapt;
+  /// The ground under the feet; nullptr: level, at height 0. It displaces the whole body,
+  /// after blend and models: goals on the floor are on the level floor.
+  std::shared_ptr<const Floor> floor{};
 };
 
 /// State of a character after a step.
@@ -60,6 +64,8 @@ struct CharacterReport {
   TransitionReport transition;
   retarget::AdaptReport adapt;   ///< For kKinematic and above.
   std::array<bool, 2> stands{};  ///< Left, right: the foot is held.
+  /// Displacement of the floor under each foot since the start, while it stood. [m]
+  std::array<glm::dvec3, 2> floor_moved_m{};
 };
 
 /// Plays actions on one body: blend, expansion, feet on the floor Y = 0, adaptation.
@@ -101,6 +107,11 @@ class CharacterPlayer {
   [[nodiscard]] std::optional<retarget::Adapter::Handle> constraint(std::string_view id) {
     return adapter_->constraint(id);
   }
+  /// Picks up or puts down a load of the character. No load is carried at first. False:
+  /// it has no load of this name.
+  bool carry(std::string_view load, bool carried) {
+    return adapter_->carry(load, carried);
+  }
   /// Changes the level: over 0.2 s from and to kBlended. kKinetic needs a spec of
   /// kKinetic.
   void set_level(DetailLevel level) { level_ = level; }
@@ -113,6 +124,7 @@ class CharacterPlayer {
   [[nodiscard]] FootReference foot_reference(std::size_t side, double time_s) const;
   void meet_floor(double step_s);
   void hold_feet(double time_s, double step_s);
+  void ride_floor(double time_s, double step_s);
   void steer_root(double time_s, double step_s);
   void move_throws(double time_s, double step_s);
   void move_hands(double time_s, double step_s);
@@ -134,6 +146,8 @@ class CharacterPlayer {
   double time_s_ = 0.0;
   std::array<FootHold, 2> feet_{};
   FloorLevel floor_;
+  std::shared_ptr<const Floor> ground_;
+  FloorRide ride_;
   std::array<glm::dvec2, 2> ankle_xz_m_{};     ///< As the feet stood in the last step.
   std::array<std::array<bool, 2>, 2> bore_{};  ///< [foot][heel, ball], with hysteresis.
   retarget::NormalizedPose normalized_;
