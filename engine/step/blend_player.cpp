@@ -303,6 +303,10 @@ void BlendPlayer::move_root(const Blend& blend, double time_s, double step_s) {
   feet_ = now;
 }
 
+double BlendPlayer::anchored() const {
+  return options_.anchors_root ? smooth_step(anchor_strength_) : 0.0;
+}
+
 void BlendPlayer::turn_about(double x_m, double z_m, double turn_rad) {
   const double c = std::cos(turn_rad);
   const double s = std::sin(turn_rad);

@@ -89,6 +89,10 @@ class BlendPlayer {
   [[nodiscard]] const PerFootPart& bears() const { return bears_; }
   [[nodiscard]] const TransitionReport& report() const { return report_; }
 
+  /// Share with which feet, and not the blend alone, move the root: 1 in transitions of
+  /// the legs, 0 without.
+  [[nodiscard]] double anchored() const;
+
   /// The action with the greatest weight on the legs; nullptr: none, or a live source,
   /// which has no clip.
   [[nodiscard]] const Action* lead() const;

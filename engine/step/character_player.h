@@ -13,6 +13,7 @@
 
 #include "engine/feet/floor_level.h"
 #include "engine/feet/foot_hold.h"
+#include "engine/feet/root_pull.h"
 #include "engine/step/blend_player.h"
 #include "engine/step/reach_player.h"
 #include "engine/step/rehearsal.h"
@@ -101,6 +102,10 @@ class CharacterPlayer {
   [[nodiscard]] std::optional<retarget::Adapter::Handle> constraint(std::string_view id) {
     return adapter_->constraint(id);
   }
+  /// Picks up or puts down a load of the character; see Adapter::carry().
+  bool carry(std::string_view load, bool carried) {
+    return adapter_->carry(load, carried);
+  }
   /// Changes the level: over 0.2 s from and to kBlended. kKinetic needs a spec of
   /// kKinetic.
   void set_level(DetailLevel level) { level_ = level; }
@@ -134,6 +139,7 @@ class CharacterPlayer {
   double time_s_ = 0.0;
   std::array<FootHold, 2> feet_{};
   FloorLevel floor_;
+  RootPull pull_;
   std::array<glm::dvec2, 2> ankle_xz_m_{};     ///< As the feet stood in the last step.
   std::array<std::array<bool, 2>, 2> bore_{};  ///< [foot][heel, ball], with hysteresis.
   retarget::NormalizedPose normalized_;
