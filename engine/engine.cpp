@@ -296,6 +296,13 @@ double Engine::time_s() const {
   return static_cast<double>(steps_) / options_.step_hz;
 }
 
+std::int64_t Engine::steps_before(CharacterId character) const {
+  MAREY_ASSERT(check_character(character).has_value());
+  const bool is_due =
+      is_stepping_ && stepped_[static_cast<std::size_t>(character)] < steps_;
+  return is_due ? steps_ - 1 : steps_;
+}
+
 const Pose& Engine::pose(CharacterId character) const {
   return player(character).pose();
 }

@@ -115,6 +115,12 @@ class Engine {
 
   [[nodiscard]] double time_s() const;
   [[nodiscard]] double step_s() const { return 1.0 / options_.step_hz; }
+  [[nodiscard]] double step_hz() const { return options_.step_hz; }
+  /// Number of steps, with the one that is under way.
+  [[nodiscard]] std::int64_t steps() const { return steps_; }
+  /// Number of steps before the one with which a request to this character would begin
+  /// now. Precondition: the character exists.
+  [[nodiscard]] std::int64_t steps_before(CharacterId character) const;
   [[nodiscard]] std::size_t size() const { return characters_.size(); }
   /// Precondition (also of the functions below): the character exists.
   [[nodiscard]] const Pose& pose(CharacterId character) const;
