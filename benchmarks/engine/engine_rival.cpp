@@ -110,7 +110,8 @@ class SwitchPlayer {
 
 }  // namespace
 
-std::vector<EngineTransitions> engine_transitions(const std::vector<SwitchCase>& cases) {
+std::vector<EngineTransitions> engine_transitions(const std::vector<SwitchCase>& cases,
+                                                  const std::string& only) {
   const SwitchPlayer player(cases.front());
   using engine::DetailLevel;
   using engine::TransitionKind;
@@ -138,6 +139,7 @@ std::vector<EngineTransitions> engine_transitions(const std::vector<SwitchCase>&
   };
   std::vector<EngineTransitions> out;
   for (const Way& way : ways) {
+    if (!only.empty() && way.name != only) continue;
     EngineTransitions method{way.name, {}};
     for (const SwitchCase& played : cases)
       method.results.push_back(player.play(played, way));

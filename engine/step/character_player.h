@@ -11,10 +11,15 @@
 #include <utility>
 #include <vector>
 
+#include "engine/feet/floor_level.h"
+#include "engine/feet/floor_ride.h"
 #include "engine/feet/foot_hold.h"
+#include "engine/feet/root_pull.h"
 #include "engine/step/blend_player.h"
 #include "engine/step/reach_player.h"
+#include "engine/step/rehearsal.h"
 #include "engine/step/steer_player.h"
+#include "engine/step/throw_player.h"
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -45,10 +50,14 @@ struct CharacterSpec {
   /// Constraints that may act on it. Activations begin as they state; the caller starts
   /// and moves them through constraint(). Supports of the feet are added.
   ConstraintSet constraints;
-  bool reaches = false;  ///< May play reaches: reserves constraints of both hands.
+  /// May play reaches and throws: reserves constraints of both hands.
+  bool reaches = false;
   BlendPlayerOptions blend;
   FootHoldOptions feet;
   retarget::AdaptOptions adapt;
+  /// The ground under the feet; nullptr: level, at height 0. It displaces the whole body,
+  /// after blend and models: goals on the floor are on the level floor.
+  std::shared_ptr<const Floor> floor{};
 };
 
 /// State of a character after a step.
@@ -56,6 +65,8 @@ struct CharacterReport {
   TransitionReport transition;
   retarget::AdaptReport adapt;   ///< For kKinematic and above.
   std::array<bool, 2> stands{};  ///< Left, right: the foot is held.
+  /// Displacement of the floor under each foot since the start, while it stood. [m]
+  std::array<glm::dvec3, 2> floor_moved_m{};
 };
 
 /// Plays actions on one body: blend, expansion, feet on the floor Y = 0, adaptation.
@@ -77,6 +88,11 @@ class CharacterPlayer {
   [[nodiscard]] SteerPlayer* steering() { return steer_ ? &*steer_ : nullptr; }
   /// nullptr: that hand (0 left, 1 right) does not reach.
   [[nodiscard]] ReachPlayer* reaching(int side);
+  /// Leads a hand through a throw, instead of an earlier throw or reach of that hand.
+  void play_throw(ThrowPlayer made);
+  /// The last throw of a hand, also after it is over, for its result; nullptr: none.
+  [[nodiscard]] ThrowPlayer* throwing(int side);
+  [[nodiscard]] const ThrowPlayer* throwing(int side) const;
   [[nodiscard]] bool can_reach() const { return reach_handles_[0].has_value(); }
 
   [[nodiscard]] BlendPlayer& blend() { return blend_; }
@@ -92,6 +108,11 @@ class CharacterPlayer {
   [[nodiscard]] std::optional<retarget::Adapter::Handle> constraint(std::string_view id) {
     return adapter_->constraint(id);
   }
+  /// Picks up or puts down a load of the character. No load is carried at first. False:
+  /// it has no load of this name.
+  bool carry(std::string_view load, bool carried) {
+    return adapter_->carry(load, carried);
+  }
   /// Changes the level: over 0.2 s from and to kBlended. kKinetic needs a spec of
   /// kKinetic.
   void set_level(DetailLevel level) { level_ = level; }
@@ -102,9 +123,11 @@ class CharacterPlayer {
                   CharacterSpec spec,
                   retarget::Adapter adapter);
   [[nodiscard]] FootReference foot_reference(std::size_t side, double time_s) const;
-  void add_landing(std::size_t side, double time_s, FootReference& out) const;
+  void meet_floor(double step_s);
   void hold_feet(double time_s, double step_s);
+  void ride_floor(double time_s, double step_s);
   void steer_root(double time_s, double step_s);
+  void move_throws(double time_s, double step_s);
   void move_hands(double time_s, double step_s);
 
   std::shared_ptr<const Character> character_;
@@ -118,8 +141,15 @@ class CharacterPlayer {
   /// By hand: the point, then the rotation.
   std::array<std::optional<retarget::Adapter::Handle>, 4> reach_handles_{};
   std::array<std::optional<ReachPlayer>, 2> reaches_{};
+  std::array<std::optional<ThrowPlayer>, 2> throws_{};
   std::optional<SteerPlayer> steer_;
+  BodyShift shift_;  ///< After the last step.
+  double time_s_ = 0.0;
   std::array<FootHold, 2> feet_{};
+  FloorLevel floor_;
+  std::shared_ptr<const Floor> ground_;
+  FloorRide ride_;
+  RootPull pull_;
   std::array<glm::dvec2, 2> ankle_xz_m_{};     ///< As the feet stood in the last step.
   std::array<std::array<bool, 2>, 2> bore_{};  ///< [foot][heel, ball], with hysteresis.
   retarget::NormalizedPose normalized_;
