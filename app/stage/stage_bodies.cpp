@@ -2,160 +2,169 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/stage/stage_bodies.h"
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
+#include <string>
 #include <utility>
 #include <variant>
 
 #include "app/adapt/load_character.h"
-#include "app/motion/retarget_files.h"
-#include "app/stage/body_point.h"
-#include "core/pose.h"
+#include "app/motion/error_of_file.h"
+#include "app/motion/read_body.h"
+#include "core/base/extension.h"
+#include "core/character_spec.h"
+#include "core/human/average_proportions.h"
+#include "recordings/body/constraints_file.h"
 #include "recordings/body/mannequin.h"
 #include "retarget/character/make_character.h"
 
 namespace marey::app {
 namespace {
 
-constexpr std::array<const char*, 2> kHands{"leftHand", "rightHand"};
-constexpr double kBodyMassIndex_kg_m2 = 22.0;
+struct CastBody {
+  Character character;
+  retarget::BodyMap map;
+  std::optional<recordings::SkinnedMesh> mesh{};
+};
 
-MassTable table_of(SceneSex sex) {
-  if (sex == SceneSex::kFemale) return MassTable::kDeLevaFemale;
-  return sex == SceneSex::kMale ? MassTable::kDeLevaMale : MassTable::kDeLeva;
+recordings::MannequinOptions mannequin_of(const SceneBuild& build) {
+  recordings::MannequinOptions out;
+  out.stature_m = build.stature_m;
+  out.arm = build.arm;
+  out.leg = build.leg;
+  out.foot = build.foot;
+  out.trunk = build.trunk;
+  out.head = build.head;
+  out.shoulder_width = build.shoulder_width;
+  out.hip_width = build.hip_width;
+  return out;
 }
 
-Result<Character> mannequin_of(const std::string& id, const SceneBuild& build) {
-  Skeleton skeleton = make_humanoid(
-      recordings::mannequin_proportions({.stature_m = build.stature_m,
-                                         .arm = build.arm,
-                                         .leg = build.leg,
-                                         .foot = build.foot,
-                                         .trunk = build.trunk,
-                                         .head = build.head,
-                                         .shoulder_width = build.shoulder_width,
-                                         .hip_width = build.hip_width}));
-  const auto map = retarget::map_body(skeleton);
+MassTable mass_table(SceneSex sex) {
+  switch (sex) {
+    case SceneSex::kFemale:
+      return MassTable::kDeLevaFemale;
+    case SceneSex::kMale:
+      return MassTable::kDeLevaMale;
+    case SceneSex::kMean:
+      break;
+  }
+  return MassTable::kDeLeva;
+}
+
+Result<CastBody> make_mannequin(const SceneBody& line, const SceneBuild& build) {
+  constexpr double kBodyMassIndex = 22.0;  // kg/m^2
+  const Proportions proportions = recordings::mannequin_proportions(mannequin_of(build));
+  CastBody out;
+  Skeleton skeleton = make_humanoid(proportions);
+  auto map = retarget::map_body(skeleton);
   if (!map) return map.error();
+  out.map = *std::move(map);
   CharacterTraits traits;
-  traits.mass.table = table_of(build.sex);
+  traits.mass.table = mass_table(build.sex);
   traits.mass.total_kg =
-      build.mass_kg.value_or(kBodyMassIndex_kg_m2 * build.stature_m * build.stature_m);
-  return retarget::make_character(id, std::move(skeleton), *map, traits);
-}
-
-Result<Character> character_of_file(const std::string& id, const std::string& path) {
-  if (std::filesystem::path(path).extension() == ".toml") return load_character(path);
-  auto skeleton = read_skeleton(std::filesystem::path(path));
-  if (!skeleton) return skeleton.error();
-  const auto map = retarget::map_body(*skeleton);
-  if (!map) return map.error();
-  return retarget::make_character(id, *std::move(skeleton), *map);
-}
-
-/// Returns the height of the rest pose above its soles, with the tip of the head.
-double stature_of(const Skeleton& skeleton) {
-  const Pose rest = rest_pose(skeleton);
-  double top_m = 0.0;
-  double low_m = 0.0;
-  const auto joints = world_from_joints(skeleton, rest);
-  for (const RigidTransform& joint : joints) {
-    top_m = std::max(top_m, joint.translation.y);
-    low_m = std::min(low_m, joint.translation.y);
-  }
-  return top_m - low_m;
-}
-
-Status add_load(StageBody& body, std::string name, const BodyPoint& point, double kg) {
-  const auto place = point_of_body(body.character.skeleton, body.map, point);
-  if (!place) {
-    return bad_input("body \"" + body.id + "\"",
-                     "it has no " + point.segment + " to carry a load with",
-                     "use a body with hands");
-  }
-  Load load;
-  load.name = std::move(name);
-  load.mass.joint = place->joint;
-  load.mass.p_in_joint = place->offset_in_joint;
-  load.mass.mass_kg = kg;
-  body.character.loads.push_back(std::move(load));
-  return Done{};
-}
-
-Status add_loads(StageBody& body,
-                 const SceneBody& wanted,
-                 const Scene& scene,
-                 std::size_t position) {
-  for (std::size_t side = 0; side < 2; ++side) {
-    if (wanted.hand_loads_kg[side] <= 0.0) continue;
-    if (const Status ok = add_load(
-            body, hand_load_name(side), {kHands[side], {}}, wanted.hand_loads_kg[side]);
-        !ok) {
-      return ok;
-    }
-  }
-  for (std::size_t i = 0; i < scene.script.size(); ++i) {
-    const auto* carry = std::get_if<SceneCarry>(&scene.script[i].deed);
-    const auto members = members_of(scene, scene.script[i].body);
-    if (carry == nullptr || !members || position < members->first ||
-        position >= members->first + members->count) {
-      continue;
-    }
-    const BodyPoint point{kHands[static_cast<std::size_t>(carry->hand)],
-                          carry->offset_in_t_pose};
-    if (const Status ok = add_load(body, carry_load_name(i), point, carry->mass_kg);
-        !ok) {
-      return ok;
-    }
-  }
-  return Done{};
-}
-
-Error of_body(Error error, const std::string& id) {
-  error.where = "body \"" + id + "\": " + error.where;
-  return error;
-}
-
-Result<StageBody> load_stage_body(const SceneBody& wanted) {
-  const auto* build = std::get_if<SceneBuild>(&wanted.source);
+      build.mass_kg.value_or(kBodyMassIndex * build.stature_m * build.stature_m);
   auto character =
-      build != nullptr
-          ? mannequin_of(wanted.id, *build)
-          : character_of_file(wanted.id, std::get<SceneBodyFile>(wanted.source).path);
-  if (!character) return of_body(character.error(), wanted.id);
-  StageBody body;
-  body.id = wanted.id;
-  body.character = *std::move(character);
-  body.character.name = wanted.id;
-  auto map = retarget::map_body(body.character.skeleton);
-  if (!map) return of_body(map.error(), wanted.id);
-  body.map = *std::move(map);
-  body.start = {wanted.place_xz_m.x, wanted.place_xz_m.y, wanted.heading_rad};
-  body.stature_m =
-      build != nullptr ? build->stature_m : stature_of(body.character.skeleton);
-  return body;
+      retarget::make_character(line.id, std::move(skeleton), out.map, traits);
+  if (!character) return character.error();
+  out.character = *std::move(character);
+  recordings::MannequinStyle style;
+  style.girth = build.girth;
+  out.mesh = recordings::make_mannequin_mesh(proportions, style);
+  return out;
+}
+
+// The mesh of a file in marey's frame; nullopt: none, or its joints were changed.
+std::optional<recordings::SkinnedMesh> mesh_of(ReadBody& body) {
+  if (!body.raw.mesh || !body.read_joint.empty() || body.rests_as_bound) {
+    return std::nullopt;
+  }
+  recordings::SkinnedMesh mesh = *std::move(body.raw.mesh);
+  for (glm::dvec3& p : mesh.p_in_world) {
+    p = body.frame.scale * (body.frame.marey_from_file * p);
+  }
+  for (glm::dvec3& n : mesh.normal_in_world) n = body.frame.marey_from_file * n;
+  return mesh;
+}
+
+Result<CastBody> read_cast_body(const std::string& file) {
+  CastBody out;
+  if (kind_by_extension(file) == ".toml") {
+    auto character = load_character(file);
+    if (!character) return character.error();
+    out.character = *std::move(character);
+  } else {
+    auto body = read_body(std::filesystem::path(file));
+    if (!body) return body.error();
+    const auto map = retarget::map_body(body->skeleton());
+    if (!map) return of_file(file, map.error());
+    auto character = retarget::make_character(
+        std::filesystem::path(file).stem().string(), body->skeleton(), *map, {});
+    if (!character) return of_file(file, character.error());
+    out.character = *std::move(character);
+    out.mesh = mesh_of(*body);
+  }
+  auto map = retarget::map_body(out.character.skeleton);
+  if (!map) return of_file(file, map.error());
+  out.map = *std::move(map);
+  return out;
+}
+
+// Stature of a body with average proportions and these legs.
+double stature_of(const SceneBody& line, const retarget::BodyMap& map) {
+  if (const auto* build = std::get_if<SceneBuild>(&line.source)) return build->stature_m;
+  const Skeleton average = make_humanoid(average_proportions(1.0));
+  const auto average_map = retarget::map_body(average);
+  return map.leg_length_m / average_map->leg_length_m;
+}
+
+void add_hand_loads(const SceneBody& line, StageBody& body) {
+  constexpr std::array kHands{HumanBone::kLeftHand, HumanBone::kRightHand};
+  constexpr std::array kNames{"left hand", "right hand"};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto joint = body.map.joint_of[index(kHands[side])];
+    if (line.hand_loads_kg[side] <= 0.0 || !joint) continue;
+    body.character.loads.push_back(
+        {kNames[side], {*joint, glm::dvec3(0.0), line.hand_loads_kg[side]}});
+  }
 }
 
 }  // namespace
 
-std::string hand_load_name(std::size_t side) {
-  return side == 0 ? "load of the left hand" : "load of the right hand";
-}
-
-std::string carry_load_name(std::size_t action) {
-  return "load of action " + std::to_string(action + 1);
-}
-
-Result<std::vector<StageBody>> load_stage_bodies(const Scene& scene) {
-  std::vector<StageBody> out;
-  for (const SceneBody& wanted : scene_bodies(scene)) {
-    auto body = load_stage_body(wanted);
-    if (!body) return body.error();
-    if (const Status ok = add_loads(*body, wanted, scene, out.size()); !ok) {
-      return ok.error();
+Result<StageCast> read_stage_cast(const Scene& scene) {
+  StageCast out;
+  std::map<std::string, CastBody> files;
+  for (const SceneBody& line : scene_bodies(scene)) {
+    CastBody cast;
+    if (const auto* build = std::get_if<SceneBuild>(&line.source)) {
+      auto made = make_mannequin(line, *build);
+      if (!made) return made.error();
+      cast = *std::move(made);
+    } else {
+      const std::string& path = std::get<SceneBodyFile>(line.source).path;
+      if (!files.contains(path)) {
+        auto read = read_cast_body(path);
+        if (!read) return read.error();
+        files[path] = *std::move(read);
+      }
+      cast = files[path];
     }
-    out.push_back(*std::move(body));
+    StageBody body;
+    body.id = line.id;
+    body.start = {line.place_xz_m.x, line.place_xz_m.y, line.heading_rad};
+    body.stature_m = stature_of(line, cast.map);
+    body.character = std::move(cast.character);
+    body.character.name = line.id;
+    body.map = std::move(cast.map);
+    add_hand_loads(line, body);
+    if (!line.constraints.empty()) {
+      auto constraints = recordings::read_constraints(line.constraints);
+      if (!constraints) return constraints.error();
+      body.constraints = std::move(constraints->set);
+    }
+    out.bodies.push_back(std::move(body));
+    out.meshes.push_back(std::move(cast.mesh));
   }
   return out;
 }

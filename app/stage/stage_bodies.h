@@ -2,26 +2,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "app/stage/stage_record.h"
 #include "core/base/result.h"
 #include "core/engine/scene.h"
+#include "recordings/body/mesh.h"
 
 namespace marey::app {
 
-/// Returns the name of the load that a body carries in a hand (0 left, 1 right) during
-/// the whole scene.
-[[nodiscard]] std::string hand_load_name(std::size_t side);
-/// Returns the name of the load of a `carry`, by its position in Scene::script.
-[[nodiscard]] std::string carry_load_name(std::size_t action);
+/// The bodies of a scene, with their surfaces.
+struct StageCast {
+  std::vector<StageBody> bodies{};  ///< One for each of scene_bodies(), in its order.
+  /// Bound to the body's skeleton; nullopt: the body's file has no surface that can be
+  /// bound to it.
+  std::vector<std::optional<recordings::SkinnedMesh>> meshes{};
+};
 
-/// Makes or reads the bodies of a scene, in the order of scene_bodies(): mannequins,
-/// avatars, skeletons, characters. Their loads are those of the hands and of the script.
-/// Errors (bad input, with the body): those of read_skeleton(), load_character(),
-/// map_body() and make_character(); a load in a hand that the body does not have.
-[[nodiscard]] Result<std::vector<StageBody>> load_stage_bodies(const Scene& scene);
+/// Makes the mannequins and reads the avatars, skeletons and characters of a scene. Hand
+/// loads become loads of the character. A file that several bodies use is read once.
+/// Errors (bad input): those of read_body(), load_character(), map_body() and
+/// make_character(), and of reading constraints, each with its file.
+[[nodiscard]] Result<StageCast> read_stage_cast(const Scene& scene);
 
 }  // namespace marey::app
