@@ -8,13 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "app/edit/edit_run.h"
+#include "app/engine/open_base.h"
 #include "app/shell/findings.h"
 #include "app/shell/option_checks.h"
 #include "app/stage/figures/measure_figures.h"
 #include "app/stage/stage_results.h"
 #include "core/base/format_text.h"
 #include "recordings/body/floor_file.h"
-#include "recordings/moves/read_moves.h"
 #include "recordings/scene/read_scene.h"
 #include "recordings/scene/read_trials.h"
 
@@ -41,9 +41,7 @@ Result<OpenedScene> open_scene(const StageArguments& args) {
   out.input.scene = *std::move(scene);
   if (args.seconds) out.input.scene.duration_s = *args.seconds;
   if (args.budget) out.input.scene.budget_units = args.budget;
-  auto moves = recordings::read_moves(out.input.scene.base);
-  if (!moves) return moves.error();
-  auto base = engine::MotionBase::make(*std::move(moves));
+  auto base = open_base(out.input.scene.base);
   if (!base) return base.error();
   out.input.base = *std::move(base);
   if (!out.input.scene.floor.empty()) {
