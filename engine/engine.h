@@ -11,6 +11,8 @@
 
 #include "engine/actions/action.h"
 #include "engine/clips/motion_base.h"
+#include "engine/models/clip_travel.h"
+#include "engine/models/steer_plan.h"
 #include "engine/step/character_player.h"
 
 #include "core/base/result.h"
@@ -84,6 +86,22 @@ class Engine {
   /// Answers whether a throw can succeed, without playing it. Errors: those of play().
   [[nodiscard]] Result<ThrowFeasibility> ask(CharacterId character,
                                              const ThrowWish& wish) const;
+  /// Requests that a point of the body follows a target at once, without a clip. It
+  /// replaces an earlier follow of that point, and reach and throw of that hand. Errors:
+  /// CharacterPlayer::make_follow()'s.
+  [[nodiscard]] Result<ActionId> play(CharacterId character, const FollowWish& wish);
+  /// Moves the target of a follow. Errors: no such follow; not finite.
+  [[nodiscard]] Status aim(CharacterId character,
+                           ActionId follow,
+                           const glm::dvec3& target_in_world);
+  /// Answers how far a target is and how long the point needs to it. Errors: those of
+  /// play().
+  [[nodiscard]] Result<FollowFeasibility> ask(CharacterId character,
+                                              const FollowWish& wish) const;
+  /// Answers when and in how many landings a walk that begins at the start of its cycle
+  /// arrives at its goal. Errors: those of play().
+  [[nodiscard]] Result<SteerAnswer> ask(CharacterId character,
+                                        const SteerWish& wish) const;
   /// Fades an action out, or takes a waiting one back. Error: it is over or unknown.
   [[nodiscard]] Status stop(CharacterId character, ActionId action);
   /// Fades out all actions of a layer; nullopt means all layers.
@@ -121,6 +139,8 @@ class Engine {
 
   std::shared_ptr<const MotionBase> base_;
   EngineOptions options_;
+  /// By clip; nullptr: it cannot be steered.
+  std::vector<std::shared_ptr<const ClipTravel>> travels_;
   std::vector<CharacterPlayer> characters_;
   std::int64_t steps_ = 0;
   std::int64_t next_action_ = 1;

@@ -13,6 +13,8 @@
 
 #include "engine/feet/foot_hold.h"
 #include "engine/step/blend_player.h"
+#include "engine/step/clip_constraints.h"
+#include "engine/step/follow_player.h"
 #include "engine/step/reach_player.h"
 #include "engine/step/rehearsal.h"
 #include "engine/step/steer_player.h"
@@ -49,6 +51,8 @@ struct CharacterSpec {
   ConstraintSet constraints;
   /// May play reaches and throws: reserves constraints of both hands.
   bool reaches = false;
+  /// Clips whose constraints act while they play: ClipConstraints.
+  std::vector<std::string> constrained_clips;
   BlendPlayerOptions blend;
   FootHoldOptions feet;
   retarget::AdaptOptions adapt;
@@ -85,6 +89,19 @@ class CharacterPlayer {
   /// The last throw of a hand, also after it is over, for its result; nullptr: none.
   [[nodiscard]] ThrowPlayer* throwing(int side);
   [[nodiscard]] const ThrowPlayer* throwing(int side) const;
+  /// Errors: FollowPlayer::make()'s; no such constraint; its goal has no point, or a
+  /// distance.
+  [[nodiscard]] Result<FollowPlayer> make_follow(ActionId id,
+                                                 const FollowWish& wish) const;
+  /// Answers whether a point can follow to a target. Errors: those of make_follow().
+  [[nodiscard]] Result<FollowFeasibility> ask_follow(const FollowWish& wish,
+                                                     double step_s) const;
+  /// Leads a point after a target, instead of an earlier one of that point.
+  void follow(FollowPlayer made);
+  /// nullptr: no follow of this id.
+  [[nodiscard]] FollowPlayer* following(ActionId id);
+  [[nodiscard]] const FollowPlayer* following(ActionId id) const;
+  [[nodiscard]] std::span<FollowPlayer> follows() { return follows_; }
   [[nodiscard]] bool can_reach() const { return reach_handles_[0].has_value(); }
 
   [[nodiscard]] BlendPlayer& blend() { return blend_; }
@@ -108,6 +125,7 @@ class CharacterPlayer {
  private:
   CharacterPlayer(std::shared_ptr<const MotionBase> base,
                   CharacterSpec spec,
+                  std::vector<FollowPoint> points,
                   retarget::Adapter adapter);
   [[nodiscard]] FootReference foot_reference(std::size_t side, double time_s) const;
   void add_landing(std::size_t side, double time_s, FootReference& out) const;
@@ -115,6 +133,10 @@ class CharacterPlayer {
   void steer_root(double time_s, double step_s);
   void move_throws(double time_s, double step_s);
   void move_hands(double time_s, double step_s);
+  void move_follows(double time_s, double step_s);
+  void drop_hand(std::size_t side);
+  void keep_shown();
+  void drop_follow(std::size_t side);
 
   std::shared_ptr<const Character> character_;
   std::shared_ptr<const retarget::BodyMap> map_;
@@ -128,8 +150,12 @@ class CharacterPlayer {
   std::array<std::optional<retarget::Adapter::Handle>, 4> reach_handles_{};
   std::array<std::optional<ReachPlayer>, 2> reaches_{};
   std::array<std::optional<ThrowPlayer>, 2> throws_{};
+  std::vector<FollowPoint> points_;  ///< Points that may follow.
+  std::vector<FollowPlayer> follows_;
+  ClipConstraints clip_constraints_;
   std::optional<SteerPlayer> steer_;
-  BodyShift shift_;  ///< After the last step.
+  BodyShift shift_;                           ///< After the last step.
+  std::vector<RigidTransform> shown_joints_;  ///< After the last step, for follows.
   double time_s_ = 0.0;
   std::array<FootHold, 2> feet_{};
   std::array<glm::dvec2, 2> ankle_xz_m_{};     ///< As the feet stood in the last step.
