@@ -60,6 +60,14 @@ class Engine {
   /// exist, is over, or has no end; an event that its clip does not have; more than
   /// kMaxActions actions.
   [[nodiscard]] Result<ActionId> play(CharacterId character, const ActionWish& wish);
+  /// Requests to play what a performer does; it begins with the second posture. It
+  /// replaces an earlier live source. Errors: those of an action without a clip, and of
+  /// check_live_options().
+  [[nodiscard]] Result<ActionId> play(CharacterId character, const LiveWish& wish);
+  /// Gives the live source the performer's posture at one instant. Allocates nothing.
+  /// Errors: there is no live source; those of LiveSource::push(); a time later than that
+  /// of the next step by more than 0.1 s.
+  [[nodiscard]] Status push(CharacterId character, const LivePosture& posture);
   /// Requests a walk to a goal. It replaces an earlier one. Errors: those of an action
   /// and of SteerPlayer::make().
   [[nodiscard]] Result<ActionId> play(CharacterId character, const SteerWish& wish);
@@ -110,6 +118,19 @@ class Engine {
   /// Moves all characters on by this many steps. Precondition: steps >= 0.
   void advance(int steps = 1);
 
+  /// Moves all characters on by one step, one after another, with the caller between
+  /// them: a character whose targets are points of another body of the same step is
+  /// stepped after that body. end_step() steps the characters that were not stepped, in
+  /// the order of their ids. The results equal those of advance() if the caller changes
+  /// nothing in between. Requests that are made between begin_step() and step() of their
+  /// character begin with this step. All in one thread; allocates nothing.
+  /// Preconditions: begin_step() and end_step() alternate, without advance() or add()
+  /// between them; a character is stepped once. time_s() is that of the step from
+  /// begin_step() on.
+  void begin_step();
+  void step(CharacterId character);
+  void end_step();
+
   [[nodiscard]] double time_s() const;
   [[nodiscard]] double step_s() const { return 1.0 / options_.step_hz; }
   [[nodiscard]] std::size_t size() const { return characters_.size(); }
@@ -142,6 +163,8 @@ class Engine {
   /// By clip; nullptr: it cannot be steered.
   std::vector<std::shared_ptr<const ClipTravel>> travels_;
   std::vector<CharacterPlayer> characters_;
+  std::vector<std::int64_t> stepped_;  ///< By character: number of its last step.
+  bool is_stepping_ = false;           ///< Between begin_step() and end_step().
   std::int64_t steps_ = 0;
   std::int64_t next_action_ = 1;
 };

@@ -18,7 +18,7 @@ struct EngineTransitions {
 
 /// Plays all switches by the methods of the engine. All cases have the same two clips.
 [[nodiscard]] std::vector<EngineTransitions> engine_transitions(
-    const std::vector<SwitchCase>& cases);
+    const std::vector<SwitchCase>& cases, const std::string& only = {});
 
 /// A loop as the engine plays it.
 struct EngineLoop {

@@ -3,7 +3,9 @@
 
 // Measures transitions between captured motions, and loops.
 //
-//   measure_transitions ../shared/data/mocap [--seed N] [--json FILE]
+//   measure_transitions ../shared/data/mocap [--seed N] [--json FILE] [--switches]
+//
+// With --switches: a line for each switch of the engine alone, with the worst instants.
 //
 // Switches at 24 random instants (fixed seed) from walk to run and back (CMU 02_01,
 // 02_03, one subject, 120 Hz) and from walk to kick and dance (Bandai Namco, 30 Hz,
@@ -22,6 +24,7 @@
 // Jerk: the mean over joints and tips within 0.5 s of the switch, over that of the clip
 // that has more; the column after it is that of the 0.3 s after the switch. Both clips
 // and results are compared at the result's rate.
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -55,6 +58,7 @@ struct TransitionProgram {
   std::filesystem::path mocap;
   unsigned seed = 1;
   std::filesystem::path json;
+  bool prints_switches = false;
 };
 
 /// Random instants at which both clips go on long enough.
@@ -148,6 +152,60 @@ ResultTable transition_table(const std::string& id,
   return table;
 }
 
+std::string point_name(const Motion& motion, std::size_t point) {
+  const auto& joints = motion.skeleton.joints;
+  return point < joints.size() ? joints[point].name : "a tip";
+}
+
+/// Prints each switch of the engine: its figures, and when and at which point the worst
+/// ones are. Times are from the switch. [s]
+void print_switches(const TransitionClip& from, const TransitionClip& to, unsigned seed) {
+  static constexpr std::array<const char*, kFootPoints> kPoints{
+      "left ankle", "right ankle", "left toes", "right toes"};
+  const auto cases = draw_switches(from, to, seed);
+  const auto method = engine_transitions(cases, "engine: auto, supports").front();
+  std::printf("%s -> %s\n", from.name.c_str(), to.name.c_str());
+  const auto sources = source_figures(cases.front(), kTransitionRate_hz);
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const TransitionResult& result = method.results[k];
+    const TransitionFigures one = judge(cases[k], result, sources);
+    const auto at = static_cast<std::size_t>(result.switch_s * kTransitionRate_hz + 1.5);
+    std::printf(
+        "%2zu %s entry %+.2f  slide %5.1f still %5.1f (worst %4.0f at %.2f %s)  "
+        "acceleration %.2f at %+.2f %s  hips %.1f cm at %+.2f  leg %.4f\n",
+        k,
+        result.frames[at].weight[1] >= 1.0 ? "inertial " : "crossfade",
+        result.frames[at].source_s[1] - cases[k].enter_s,
+        one.slide_cm_s,
+        one.still_slide_cm_s,
+        one.worst_slide_cm_s,
+        one.worst_slide_at_s,
+        kPoints[one.worst_slide_point],
+        one.acceleration,
+        one.acceleration_at_s,
+        point_name(result.motion, one.acceleration_point).c_str(),
+        one.hips_beyond_cm,
+        one.hips_beyond_at_s,
+        one.leg_extension);
+  }
+  const MethodFigures all = judge_method(cases, method.results);
+  std::printf(
+      "all: slide %.1f p95 %.1f own %.1f, still %.1f p95 %.1f own %.1f, "
+      "acceleration %.2f %.2f, jerk %.2f, 90%% %.2f s, hips %.1f, leg %.4f\n",
+      all.slide_mean_cm_s,
+      all.slide_p95_cm_s,
+      all.own_slide_mean_cm_s,
+      all.still_slide_mean_cm_s,
+      all.still_slide_p95_cm_s,
+      all.own_still_slide_mean_cm_s,
+      all.acceleration_median,
+      all.acceleration_worst,
+      all.jerk_mean,
+      all.settled_median_s,
+      all.hips_beyond_worst_cm,
+      all.leg_extension_worst);
+}
+
 double mean_slide(const std::vector<double>& slides_cm_s) {
   double sum_cm_s = 0.0;
   for (const double slide_cm_s : slides_cm_s) sum_cm_s += slide_cm_s;
@@ -233,6 +291,13 @@ int run(const TransitionProgram& program) {
     std::fprintf(stderr, "%s\n", clips.error().message().c_str());
     return 1;
   }
+  if (program.prints_switches) {
+    print_switches(clips->walk, clips->run, program.seed);
+    print_switches(clips->run, clips->walk, program.seed);
+    print_switches(clips->bandai_walk, clips->bandai_kick, program.seed);
+    print_switches(clips->bandai_walk, clips->bandai_dance, program.seed);
+    return 0;
+  }
   std::vector<ResultTable> tables;
   const auto add = [&](ResultTable table) {
     print_table(table);
@@ -267,13 +332,16 @@ int main(int argc, char** argv) {
       program.seed = static_cast<unsigned>(std::strtoul(argv[++k], nullptr, 10));
     } else if (word == "--json" && k + 1 < argc) {
       program.json = argv[++k];
+    } else if (word == "--switches") {
+      program.prints_switches = true;
     } else {
       program.mocap = word;
     }
   }
   if (program.mocap.empty()) {
     std::fprintf(stderr,
-                 "usage: measure_transitions MOCAP_FOLDER [--seed N] [--json FILE]\n");
+                 "usage: measure_transitions MOCAP_FOLDER [--seed N] [--json FILE] "
+                 "[--switches]\n");
     return 2;
   }
   return marey::run(program);

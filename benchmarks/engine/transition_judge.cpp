@@ -48,14 +48,21 @@ struct JudgedFrames {
   int end = 0;
 };
 
-double largest_acceleration(const JudgedPlaces& places, JudgedFrames frames, double hz) {
-  double largest = 0.0;
+struct Largest {
+  double value = 0.0;
+  int frame = 0;
+  std::size_t point = 0;
+};
+
+Largest largest_acceleration(const JudgedPlaces& places, JudgedFrames frames, double hz) {
+  Largest largest;
   const int end = std::min(frames.end, static_cast<int>(places.size()) - 1);
   for (int frame = std::max(frames.first, 1); frame < end; ++frame) {
     const auto t = static_cast<std::size_t>(frame);
     for (std::size_t j = 0; j < places[t].size(); ++j) {
       const glm::dvec3 change = places[t + 1][j] - 2.0 * places[t][j] + places[t - 1][j];
-      largest = std::max(largest, glm::length(change) * hz * hz);
+      const double size_m_s2 = glm::length(change) * hz * hz;
+      if (size_m_s2 > largest.value) largest = {size_m_s2, frame, j};
     }
   }
   return largest;
@@ -121,8 +128,15 @@ void measure_slides(const SwitchCase& played,
         clip,
         time_s,
         [&](std::size_t point) {
-          return horizontal_speed_cm_s(
+          const double slide_cm_s = horizontal_speed_cm_s(
               paths[point][t - 1], paths[point][t], result.motion.rate.hz);
+          if (slide_cm_s > out.worst_slide_cm_s &&
+              own_slide_cm_s(clip, point, time_s) <= kStill_cm_s) {
+            out.worst_slide_cm_s = slide_cm_s;
+            out.worst_slide_point = point;
+            out.worst_slide_at_s = frame / result.motion.rate.hz - result.switch_s;
+          }
+          return slide_cm_s;
         },
         out.slides);
     add_slides(
@@ -151,14 +165,14 @@ double longest_leg(const Motion& motion,
   return longest;
 }
 
-double farthest_hips_cm(const TransitionResult& result) {
-  double farthest_m = 0.0;
+Largest farthest_hips_cm(const TransitionResult& result) {
+  Largest farthest;
   for (std::size_t t = 0; t < result.blend_hips_in_world.size(); ++t) {
-    farthest_m = std::max(farthest_m,
-                          glm::distance(result.blend_hips_in_world[t],
-                                        result.motion.poses[t].root_in_world));
+    const double away_cm = 100.0 * glm::distance(result.blend_hips_in_world[t],
+                                                 result.motion.poses[t].root_in_world);
+    if (away_cm > farthest.value) farthest = {away_cm, static_cast<int>(t), 0};
   }
-  return 100.0 * farthest_m;
+  return farthest;
 }
 
 double settled_after_s(const TransitionResult& result, int at) {
@@ -211,7 +225,7 @@ SourceFigures source_figures(const TransitionClip& clip, double hz) {
   const JudgedPlaces places =
       judged_places(clip.motion, static_cast<std::size_t>(stride));
   const JudgedFrames all{0, static_cast<int>(places.size())};
-  return {largest_acceleration(places, all, hz), mean_jerk_of(places, all, hz)};
+  return {largest_acceleration(places, all, hz).value, mean_jerk_of(places, all, hz)};
 }
 
 SourceFigures source_figures(const SwitchCase& played, double hz) {
@@ -257,12 +271,16 @@ TransitionFigures judge(const SwitchCase& played,
   measure_slides(played, result, *map, after, out);
   out.slide_cm_s = mean_of(out.slides.points);
   out.still_slide_cm_s = mean_of(out.slides.still);
-  out.acceleration =
-      largest_acceleration(places, around, hz) / sources.peak_acceleration_m_s2;
+  const Largest acceleration = largest_acceleration(places, around, hz);
+  out.acceleration = acceleration.value / sources.peak_acceleration_m_s2;
+  out.acceleration_at_s = (acceleration.frame - at) / hz;
+  out.acceleration_point = acceleration.point;
   out.jerk = mean_jerk_of(places, around, hz) / sources.mean_jerk_m_s3;
   out.jerk_after = mean_jerk_of(places, after, hz) / sources.mean_jerk_m_s3;
   out.settled_s = settled_after_s(result, at);
-  out.hips_beyond_cm = farthest_hips_cm(result);
+  const Largest hips = farthest_hips_cm(result);
+  out.hips_beyond_cm = hips.value;
+  out.hips_beyond_at_s = (hips.frame - at) / hz;
   out.leg_extension = longest_leg(result.motion, *map, around);
   return out;
 }

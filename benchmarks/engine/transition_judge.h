@@ -73,6 +73,9 @@ struct TransitionFigures {
   double still_slide_cm_s = 0.0;  ///< Mean of slides.still.
   /// Largest acceleration of a joint or tip within 0.5 s of the switch over the sources'.
   double acceleration = 0.0;
+  double acceleration_at_s = 0.0;  ///< Time of it from the switch.
+  /// Place of it: a joint of the skeleton, or beyond those a tip.
+  std::size_t acceleration_point = 0;
   /// Mean jerk of joints and tips within 0.5 s of the switch over the sources'.
   double jerk = 0.0;
   /// The same from the switch on for 0.3 s.
@@ -80,7 +83,13 @@ struct TransitionFigures {
   /// Time from the switch until the second clip has 90 % of the weight; kPlayedAround_s
   /// if it does not. [s]
   double settled_s = 0.0;
-  double hips_beyond_cm = 0.0;  ///< Largest distance of the hips from the blend's.
+  double hips_beyond_cm = 0.0;    ///< Largest distance of the hips from the blend's.
+  double hips_beyond_at_s = 0.0;  ///< Time of it from the switch.
+  /// Largest step of a point that bears and is still in the clip, its place among the
+  /// foot points, and its time from the switch.
+  double worst_slide_cm_s = 0.0;
+  std::size_t worst_slide_point = 0;
+  double worst_slide_at_s = 0.0;
   /// Largest distance from hip to ankle over the leg's length within 0.5 s of the switch.
   double leg_extension = 0.0;
 };

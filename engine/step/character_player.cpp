@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/step/landing.h"
+
 #include "core/base/smooth_step.h"
 #include "retarget/body/normalized_skeleton.h"
 #include "retarget/body/rotation_from_t_pose.h"
@@ -19,8 +21,6 @@ constexpr std::array<const char*, 2> kReachIds{"reach left", "reach right"};
 constexpr std::array<const char*, 2> kTurnIds{"reach turn left", "reach turn right"};
 constexpr std::array<HumanBone, 2> kFootBones{HumanBone::kLeftFoot,
                                               HumanBone::kRightFoot};
-constexpr double kBearsAbove = 0.6;
-constexpr double kBearsUntil = 0.4;
 constexpr double kLevelFade_s = 0.2;
 
 Constraint support_of(std::size_t side) {
@@ -32,32 +32,6 @@ Constraint support_of(std::size_t side) {
   goal.world_from_t_pose = glm::dquat(1.0, 0.0, 0.0, 0.0);
   support.goal = goal;
   return support;
-}
-
-// Time from `source_s` in a clip until a part of a foot begins to bear; nullopt: it bears
-// already, or does not begin within `within_s` of the clip.
-std::optional<double> until_contact_s(const MotionClip& clip,
-                                      std::size_t side,
-                                      double source_s,
-                                      double within_s) {
-  const double duration = clip.duration_s();
-  double now = source_s;
-  if (clip.loops) now -= std::floor(now / duration) * duration;
-  std::optional<double> soonest;
-  for (std::size_t part = 2 * side; part < 2 * side + 2; ++part) {
-    for (const ClipSpan& span : clip.contacts[part]) {
-      for (int cycle = 0; cycle < (clip.loops ? 2 : 1); ++cycle) {
-        const double start = static_cast<double>(span.start_s) + cycle * duration;
-        const double end = static_cast<double>(span.end_s) + cycle * duration;
-        if (now >= start && now < end) return std::nullopt;
-        const double until = start - now;
-        // A contact that starts with the clip continues the end of the cycle.
-        if (until < 0.0 || until > within_s) continue;
-        if (!soonest || until < *soonest) soonest = until;
-      }
-    }
-  }
-  return soonest;
 }
 
 // Points of the constraints that follow: at a place, without a distance.
@@ -156,42 +130,6 @@ std::span<const RigidTransform> CharacterPlayer::world_from_joint() const {
   return world_from_joint_;
 }
 
-void CharacterPlayer::add_landing(std::size_t side,
-                                  double time_s,
-                                  FootReference& out) const {
-  const Action* lead = blend_.lead();
-  if (lead == nullptr) return;
-  const MotionClip& clip = blend_.base().clip(lead->clip);
-  const double source_s = lead->warp.source_s(time_s);
-  const double rate = lead->warp.rate(time_s);
-  const auto until = until_contact_s(clip, side, source_s, foot_options_.land_s * rate);
-  if (!until || *until / rate < 1e-6) return;
-  // The ankle's height and velocity at the landing, in the clip on this body.
-  constexpr double kBack_s = 0.004;
-  const Rig& rig = blend_.rig();
-  const auto ankle = [&](double at_s) {
-    BlendPosture posture;
-    sample_clip(clip, at_s, posture);
-    const glm::dvec3 p = rig.leg_length_m * foot_places(rig, posture).ankle[side];
-    const RootPlace moved_by = relative(path_at(clip, source_s), path_at(clip, at_s));
-    const RootPlace root = moved({0.0, 0.0, blend_.root().heading_rad},
-                                 {moved_by.x_m * rig.leg_length_m,
-                                  moved_by.z_m * rig.leg_length_m,
-                                  moved_by.heading_rad});
-    const double c = std::cos(root.heading_rad);
-    const double s = std::sin(root.heading_rad);
-    return glm::dvec3(root.x_m + c * p.x + s * p.z,
-                      p.y + rig.leg_length_m * static_cast<double>(posture.height_legs),
-                      root.z_m - s * p.x + c * p.z);
-  };
-  FootReference::Landing landing;
-  landing.in_s = *until / rate;
-  landing.ankle_in_world = ankle(source_s + *until);
-  landing.velocity_m_s =
-      (landing.ankle_in_world - ankle(source_s + *until - kBack_s)) * (rate / kBack_s);
-  out.landing = landing;
-}
-
 FootReference CharacterPlayer::foot_reference(std::size_t side, double time_s) const {
   const JointIndex joint = *map_->joint_of[index(kFootBones[side])];
   FootReference out;
@@ -199,17 +137,44 @@ FootReference CharacterPlayer::foot_reference(std::size_t side, double time_s) c
   out.world_from_t_pose = retarget::rotation_from_t_pose(*map_, world_from_joint_, joint);
   out.heel_bears = bore_[side][0];
   out.ball_bears = bore_[side][1];
-  if (!out.heel_bears && !out.ball_bears) add_landing(side, time_s, out);
+  if (!out.heel_bears && !out.ball_bears) {
+    out.landing = next_landing(blend_, side, time_s, foot_options_.land_s);
+    if (out.landing) out.landing->ankle_in_world.y += floor_.lift_m();
+  }
   return out;
 }
 
-void CharacterPlayer::hold_feet(double time_s, double step_s) {
-  const double share = smooth_step(activation_);
+void CharacterPlayer::meet_floor(double step_s) {
+  std::optional<double> sole_m;
   for (std::size_t side = 0; side < 2; ++side) {
     for (std::size_t part = 0; part < 2; ++part) {
       bool& bears = bore_[side][part];
       bears = blend_.bears()[2 * side + part] > (bears ? kBearsUntil : kBearsAbove);
     }
+    if (!bore_[side][0] && !bore_[side][1]) continue;
+    const JointIndex joint = *map_->joint_of[index(kFootBones[side])];
+    const retarget::FootMap& foot = map_->feet[side];
+    double height_m = world_from_joint_[index(joint)].translation.y - foot.ankle_height_m;
+    if (!bore_[side][0]) {
+      const glm::dquat turn =
+          retarget::rotation_from_t_pose(*map_, world_from_joint_, joint);
+      height_m += (turn * foot.ball_from_ankle_in_t_pose).y + foot.ankle_height_m -
+                  foot.ball_height_m;
+    }
+    sole_m = std::min(sole_m.value_or(height_m), height_m);
+  }
+  const double lift_m =
+      smooth_step(activation_) *
+      floor_.step(sole_m, foot_options_.max_height_legs * map_->leg_length_m, step_s);
+  for (RigidTransform& joint : world_from_joint_) joint.translation.y += lift_m;
+  reference_.root_in_world.y += lift_m;
+}
+
+void CharacterPlayer::hold_feet(double time_s, double step_s) {
+  const double share = smooth_step(activation_);
+  glm::dvec2 away_m(0.0);
+  double standing = 0.0;
+  for (std::size_t side = 0; side < 2; ++side) {
     const FootReference reference = foot_reference(side, time_s);
     const FootHold::Place place = feet_[side].step(
         reference, map_->feet[side], blend_.rig().leg_length_m, step_s, foot_options_);
@@ -223,7 +188,19 @@ void CharacterPlayer::hold_feet(double time_s, double step_s) {
     now.from_reference_m = now.ankle_in_world - reference.ankle_in_world;
     supports_[side]->set_target(now.ankle_in_world);
     supports_[side]->set_orientation(now.world_from_t_pose);
+    if (report_.stands[side]) {
+      away_m += ankle_xz_m_[side] -
+                glm::dvec2(reference.ankle_in_world.x, reference.ankle_in_world.z);
+      standing += 1.0;
+    }
   }
+  // Acts on the next step.
+  const double pulled = share * blend_.anchored() / std::max(1.0, standing);
+  const glm::dvec2 pull_m = pull_.step(pulled * away_m, step_s);
+  RootPlace root = blend_.root();
+  root.x_m += pull_m.x;
+  root.z_m += pull_m.y;
+  blend_.place(root);
 }
 
 void CharacterPlayer::step(double time_s, double step_s) {
@@ -246,10 +223,12 @@ void CharacterPlayer::step(double time_s, double step_s) {
     pose_ = reference_;
     feet_[0].reset();
     feet_[1].reset();
+    floor_.reset();
     report_.stands = {};
     keep_shown();
     return;
   }
+  meet_floor(step_s);
   // Before the feet, because a throw poses the body at other times.
   move_throws(time_s, step_s);
   hold_feet(time_s, step_s);

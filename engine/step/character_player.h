@@ -11,7 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "engine/feet/floor_level.h"
 #include "engine/feet/foot_hold.h"
+#include "engine/feet/root_pull.h"
 #include "engine/step/blend_player.h"
 #include "engine/step/clip_constraints.h"
 #include "engine/step/follow_player.h"
@@ -117,6 +119,10 @@ class CharacterPlayer {
   [[nodiscard]] std::optional<retarget::Adapter::Handle> constraint(std::string_view id) {
     return adapter_->constraint(id);
   }
+  /// Picks up or puts down a load of the character; see Adapter::carry().
+  bool carry(std::string_view load, bool carried) {
+    return adapter_->carry(load, carried);
+  }
   /// Changes the level: over 0.2 s from and to kBlended. kKinetic needs a spec of
   /// kKinetic.
   void set_level(DetailLevel level) { level_ = level; }
@@ -128,7 +134,7 @@ class CharacterPlayer {
                   std::vector<FollowPoint> points,
                   retarget::Adapter adapter);
   [[nodiscard]] FootReference foot_reference(std::size_t side, double time_s) const;
-  void add_landing(std::size_t side, double time_s, FootReference& out) const;
+  void meet_floor(double step_s);
   void hold_feet(double time_s, double step_s);
   void steer_root(double time_s, double step_s);
   void move_throws(double time_s, double step_s);
@@ -158,6 +164,8 @@ class CharacterPlayer {
   std::vector<RigidTransform> shown_joints_;  ///< After the last step, for follows.
   double time_s_ = 0.0;
   std::array<FootHold, 2> feet_{};
+  FloorLevel floor_;
+  RootPull pull_;
   std::array<glm::dvec2, 2> ankle_xz_m_{};     ///< As the feet stood in the last step.
   std::array<std::array<bool, 2>, 2> bore_{};  ///< [foot][heel, ball], with hysteresis.
   retarget::NormalizedPose normalized_;

@@ -114,7 +114,8 @@ void ClipConstraints::step(double time_s, double leg_length_m, const BlendPlayer
     std::optional<double> source_s;
     const auto actions = blend.actions();
     for (std::size_t a = 0; a < actions.size(); ++a) {
-      if (actions[a].clip != entry.clip || !actions[a].is_alive()) continue;
+      if (actions[a].is_live || actions[a].clip != entry.clip) continue;
+      if (!actions[a].is_alive()) continue;
       double at_s = actions[a].warp.source_s(time_s);
       if (actions[a].loops) {
         at_s -= std::floor(at_s / clip.duration_s()) * clip.duration_s();
