@@ -90,7 +90,8 @@ Status Engine::check_character(CharacterId character) const {
 Result<Action> Engine::checked(CharacterId character, const ActionWish& wish) const {
   if (const auto known = check_character(character); !known) return known.error();
   const CharacterPlayer& who = player(character);
-  auto action = check_wish(wish, *base_, who.blend().actions(), groups_of(who.map()));
+  auto action =
+      check_wish(wish, who.blend().base(), who.blend().actions(), groups_of(who.map()));
   if (!action) return action.error();
   if (!who.blend().has_room()) return no_room(wish.clip);
   return action;
@@ -112,8 +113,8 @@ Result<ActionId> Engine::play(CharacterId character, const LiveWish& wish) {
   if (const auto known = check_character(character); !known) return known.error();
   if (const Status good = check_live_options(wish.options); !good) return good.error();
   CharacterPlayer& who = player(character);
-  auto action =
-      check_live_wish(wish.action, *base_, who.blend().actions(), groups_of(who.map()));
+  auto action = check_live_wish(
+      wish.action, who.blend().base(), who.blend().actions(), groups_of(who.map()));
   if (!action) return action.error();
   if (!who.blend().has_room()) return no_room(wish.action.clip);
   action->id = ActionId{next_action_++};

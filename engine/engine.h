@@ -14,6 +14,8 @@
 #include "engine/models/clip_travel.h"
 #include "engine/models/steer_plan.h"
 #include "engine/step/character_player.h"
+#include "engine/step/choose_family.h"
+#include "engine/step/jump_wish.h"
 
 #include "core/base/result.h"
 
@@ -110,6 +112,13 @@ class Engine {
   /// arrives at its goal. Errors: those of play().
   [[nodiscard]] Result<SteerAnswer> ask(CharacterId character,
                                         const SteerWish& wish) const;
+  /// Requests a jump with another apex, airtime or landing. Plans it now: some
+  /// milliseconds for the first jump of a clip, less for others; allocates. Errors: those
+  /// of an action, of JumpBody::make() and of dynamics::plan_jump().
+  [[nodiscard]] Result<ActionId> play(CharacterId character, const JumpWish& wish);
+  /// Answers whether a jump is possible. The first question about a clip costs some
+  /// milliseconds. Errors: those of play(), except those of the plan.
+  [[nodiscard]] Result<JumpFeasibility> ask(CharacterId character, const JumpWish& wish);
   /// Fades an action out, or takes a waiting one back. Error: it is over or unknown.
   [[nodiscard]] Status stop(CharacterId character, ActionId action);
   /// Fades out all actions of a layer; nullopt means all layers.
@@ -156,6 +165,11 @@ class Engine {
   [[nodiscard]] Result<ThrowPlayer> made_throw(CharacterId character,
                                                Action action,
                                                const ThrowWish& wish) const;
+  [[nodiscard]] Result<std::vector<FamilyAction>> chosen_family(
+      CharacterId character, const ReachWish& wish) const;
+  [[nodiscard]] Result<ActionId> play_family(CharacterId character,
+                                             Action action,
+                                             const ReachWish& wish);
   ActionId add_action(CharacterId character, Action action);
 
   std::shared_ptr<const MotionBase> base_;

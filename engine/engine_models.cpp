@@ -39,10 +39,65 @@ Status Engine::aim(CharacterId character, glm::dvec2 goal_xz_m) {
 Result<ActionId> Engine::play(CharacterId character, const ReachWish& wish) {
   auto action = checked(character, wish.action);
   if (!action) return action.error();
+  if (!wish.family.empty()) return play_family(character, *std::move(action), wish);
   auto reach = made_reach(character, *action, wish);
   if (!reach) return reach.error();
   player(character).reach(*std::move(reach));
   return add_action(character, *std::move(action));
+}
+
+Result<std::vector<FamilyAction>> Engine::chosen_family(CharacterId character,
+                                                        const ReachWish& wish) const {
+  if (const Status good = check_hand(character, wish.action.clip, wish.side); !good) {
+    return good.error();
+  }
+  if (const Status good = check_target(wish.target); !good) return good.error();
+  const CharacterPlayer& who = player(character);
+  const RootPlace& root = who.blend().root();
+  const glm::dvec3 target =
+      glm::angleAxis(-root.heading_rad, glm::dvec3(0.0, 1.0, 0.0)) *
+      (wish.target.p_in_world - glm::dvec3(root.x_m, 0.0, root.z_m));
+  std::vector<std::string> clips{wish.action.clip};
+  clips.insert(clips.end(), wish.family.begin(), wish.family.end());
+  return choose_family(
+      *base_, clips, wish.arrive, wish.side, target, who.character().skeleton, who.map());
+}
+
+Result<ActionId> Engine::play_family(CharacterId character,
+                                     Action action,
+                                     const ReachWish& wish) {
+  const auto chosen = chosen_family(character, wish);
+  if (!chosen) return chosen.error();
+  CharacterPlayer& who = player(character);
+  if (who.blend().actions().size() + chosen->size() > kMaxActions) {
+    return bad_input("action \"" + wish.action.clip + "\"",
+                     "the character has no room for the family of reaches",
+                     "stop some of its actions first");
+  }
+  action.entry_s = 0.0;
+  action.entry_search_s = 0.0;
+  if (action.transition != TransitionKind::kCut) {
+    action.transition = TransitionKind::kCrossfade;
+  }
+  const Action like = action;
+  const auto with_share = [&](const FamilyAction& share) {
+    Action out = like;
+    out.clip = share.clip;
+    out.weight = like.weight * static_cast<float>(share.weight);
+    out.rate = std::clamp(like.rate * share.rate, kMinWarpRate, kMaxWarpRate);
+    return out;
+  };
+  action = with_share(chosen->front());
+  auto reach = made_reach(character, action, wish);
+  if (!reach) return reach.error();
+  const ActionId main = add_action(character, action);
+  for (std::size_t i = 1; i < chosen->size(); ++i) {
+    Action along = with_share((*chosen)[i]);
+    along.replaces = false;
+    reach->add_companion(add_action(character, along), (*chosen)[i].event_s);
+  }
+  who.reach(*std::move(reach));
+  return main;
 }
 
 Status Engine::check_hand(CharacterId character,
@@ -127,6 +182,12 @@ Status Engine::aim(CharacterId character, int side, const ReachTarget& target) {
 Result<ReachFeasibility> Engine::ask(CharacterId character, const ReachWish& wish) const {
   auto action = checked(character, wish.action);
   if (!action) return action.error();
+  if (!wish.family.empty()) {
+    const auto chosen = chosen_family(character, wish);
+    if (!chosen) return chosen.error();
+    action->clip = chosen->front().clip;
+    action->rate *= chosen->front().rate;
+  }
   auto reach = made_reach(character, *action, wish);
   if (!reach) return reach.error();
   ReachFeasibility answer = reach->ask(player(character).blend(), *action);

@@ -83,11 +83,39 @@ void CharacterPlayer::move_hands(double time_s, double step_s) {
                               step_s,
                               blend_,
                               world_from_joint_,
+                              shift_.lift_m,
                               *reach_handles_[2 * side],
                               *reach_handles_[2 * side + 1])) {
       reaches_[side].reset();
     }
   }
+}
+
+Result<std::shared_ptr<const JumpBody>> CharacterPlayer::jump_body(std::size_t clip,
+                                                                   int jump) {
+  for (const PreparedJump& prepared : jumps_) {
+    if (prepared.clip == clip && prepared.jump == jump) return prepared.body;
+  }
+  const MotionBase& base = blend_.base();
+  auto made = JumpBody::make(base.clip(clip), base.layout(), *character_, *map_, jump);
+  if (!made) return made.error();
+  jumps_.push_back({clip, jump, *made});
+  return *std::move(made);
+}
+
+std::size_t CharacterPlayer::add_clip(MotionClip clip) {
+  const MotionBase& base = blend_.base();
+  const std::size_t first = base.clips().size();
+  const auto is_played = [&](std::size_t slot) {
+    const auto actions = blend_.actions();
+    return std::any_of(actions.begin(), actions.end(), [&](const Action& action) {
+      return !action.is_live && action.clip == first + slot;
+    });
+  };
+  std::size_t slot = 0;
+  while (slot < base.own_count() && is_played(slot)) ++slot;
+  blend_.set_base(base.with_own(slot, std::move(clip)));
+  return first + slot;
 }
 
 Result<FollowPlayer> CharacterPlayer::make_follow(ActionId id,

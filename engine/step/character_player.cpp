@@ -166,6 +166,7 @@ void CharacterPlayer::meet_floor(double step_s) {
   const double lift_m =
       smooth_step(activation_) *
       floor_.step(sole_m, foot_options_.max_height_legs * map_->leg_length_m, step_s);
+  shift_.lift_m = lift_m;
   for (RigidTransform& joint : world_from_joint_) joint.translation.y += lift_m;
   reference_.root_in_world.y += lift_m;
 }

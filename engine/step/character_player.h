@@ -14,6 +14,7 @@
 #include "engine/feet/floor_level.h"
 #include "engine/feet/foot_hold.h"
 #include "engine/feet/root_pull.h"
+#include "engine/models/jump_body.h"
 #include "engine/step/blend_player.h"
 #include "engine/step/clip_constraints.h"
 #include "engine/step/follow_player.h"
@@ -91,6 +92,13 @@ class CharacterPlayer {
   /// The last throw of a hand, also after it is over, for its result; nullptr: none.
   [[nodiscard]] ThrowPlayer* throwing(int side);
   [[nodiscard]] const ThrowPlayer* throwing(int side) const;
+  /// Returns a jump of a clip on this body; prepares it if it is the first of this clip.
+  /// Errors: JumpBody::make()'s.
+  [[nodiscard]] Result<std::shared_ptr<const JumpBody>> jump_body(std::size_t clip,
+                                                                  int jump);
+  /// Adds a clip of this character alone, in place of one that no action plays. Returns
+  /// its position in the base of blend().
+  [[nodiscard]] std::size_t add_clip(MotionClip clip);
   /// Errors: FollowPlayer::make()'s; no such constraint; its goal has no point, or a
   /// distance.
   [[nodiscard]] Result<FollowPlayer> make_follow(ActionId id,
@@ -159,6 +167,12 @@ class CharacterPlayer {
   std::vector<FollowPoint> points_;  ///< Points that may follow.
   std::vector<FollowPlayer> follows_;
   ClipConstraints clip_constraints_;
+  struct PreparedJump {
+    std::size_t clip = 0;
+    int jump = 0;
+    std::shared_ptr<const JumpBody> body;
+  };
+  std::vector<PreparedJump> jumps_;
   std::optional<SteerPlayer> steer_;
   BodyShift shift_;                           ///< After the last step.
   std::vector<RigidTransform> shown_joints_;  ///< After the last step, for follows.
