@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/actions/action.h"
@@ -101,6 +102,8 @@ class BlendPlayer {
     return weights_[action];
   }
   [[nodiscard]] const MotionBase& base() const { return *base_; }
+  /// Replaces the base by one with the same clips, and others that no action plays.
+  void set_base(std::shared_ptr<const MotionBase> base) { base_ = std::move(base); }
   [[nodiscard]] const Rig& rig() const { return rig_; }
 
  private:

@@ -11,6 +11,7 @@
 #include "core/base/smooth_step.h"
 #include "retarget/body/normalized_skeleton.h"
 #include "retarget/body/rotation_from_t_pose.h"
+#include "retarget/constraints/resolve_segment.h"
 
 namespace marey::engine {
 namespace {
@@ -31,6 +32,21 @@ Constraint support_of(std::size_t side) {
   goal.world_from_t_pose = glm::dquat(1.0, 0.0, 0.0, 0.0);
   support.goal = goal;
   return support;
+}
+
+// Points of the constraints that follow: at a place, without a distance.
+std::vector<FollowPoint> follow_points(const ConstraintSet& constraints,
+                                       const Skeleton& skeleton,
+                                       const retarget::BodyMap& map) {
+  std::vector<FollowPoint> out;
+  for (const Constraint& constraint : constraints.constraints) {
+    const auto* goal = std::get_if<DistanceToPoint>(&constraint.goal);
+    if (goal == nullptr || goal->distance_m != 0.0) continue;
+    const auto joint = retarget::resolve_segment(skeleton, constraint.point.segment);
+    if (!joint || map.joints[index(*joint)].role == retarget::JointRole::kFree) continue;
+    out.push_back({constraint.id, *joint, constraint.point.offset_in_t_pose});
+  }
+  return out;
 }
 
 }  // namespace
@@ -66,17 +82,26 @@ Result<CharacterPlayer> CharacterPlayer::make(std::shared_ptr<const MotionBase> 
     }
     constraints.constraints.push_back(constraint);
   }
+  auto reserved = ClipConstraints::reserve(*base, spec.constrained_clips);
+  if (!reserved) return reserved.error();
+  std::vector<FollowPoint> points =
+      follow_points(constraints, spec.character.skeleton, spec.map);
+  for (Constraint& constraint : *reserved) {
+    constraints.constraints.push_back(std::move(constraint));
+  }
   retarget::AdaptOptions options = spec.adapt;
   if (spec.level == DetailLevel::kKinetic) {
     options.balance = retarget::BalanceMode::kHorizontal;
   }
   auto adapter = retarget::Adapter::make(spec.character, constraints, options);
   if (!adapter) return adapter.error();
-  return CharacterPlayer(std::move(base), std::move(spec), *std::move(adapter));
+  return CharacterPlayer(
+      std::move(base), std::move(spec), std::move(points), *std::move(adapter));
 }
 
 CharacterPlayer::CharacterPlayer(std::shared_ptr<const MotionBase> base,
                                  CharacterSpec spec,
+                                 std::vector<FollowPoint> points,
                                  retarget::Adapter adapter)
     : character_(std::make_shared<const Character>(std::move(spec.character))),
       map_(std::make_shared<const retarget::BodyMap>(std::move(spec.map))),
@@ -86,15 +111,19 @@ CharacterPlayer::CharacterPlayer(std::shared_ptr<const MotionBase> base,
       level_(spec.level),
       activation_(spec.level == DetailLevel::kBlended ? 0.0 : 1.0),
       adapter_(std::make_unique<retarget::Adapter>(std::move(adapter))),
+      points_(std::move(points)),
       ground_(std::move(spec.floor)),
       world_from_joint_(character_->skeleton.joints.size()),
       reference_(rest_pose(character_->skeleton)),
       pose_(reference_) {
+  shown_joints_.resize(world_from_joint_.size());
   for (std::size_t side = 0; side < 2; ++side) {
     supports_[side] = adapter_->constraint(kSupportIds[side]);
     reach_handles_[2 * side] = adapter_->constraint(kReachIds[side]);
     reach_handles_[2 * side + 1] = adapter_->constraint(kTurnIds[side]);
   }
+  follows_.reserve(points_.size());
+  clip_constraints_.attach(blend_.base(), spec.constrained_clips, *adapter_);
 }
 
 std::span<const RigidTransform> CharacterPlayer::world_from_joint() const {
@@ -138,6 +167,7 @@ void CharacterPlayer::meet_floor(double step_s) {
   const double lift_m =
       smooth_step(activation_) *
       floor_.step(sole_m, foot_options_.max_height_legs * map_->leg_length_m, step_s);
+  shift_.lift_m = lift_m;
   for (RigidTransform& joint : world_from_joint_) joint.translation.y += lift_m;
   reference_.root_in_world.y += lift_m;
 }
@@ -200,76 +230,6 @@ void CharacterPlayer::ride_floor(double time_s, double step_s) {
   }
 }
 
-void CharacterPlayer::reach(ReachPlayer reach) {
-  const std::size_t side = static_cast<std::size_t>(reach.side());
-  if (throws_[side]) {
-    throws_[side]->drop(
-        time_s_, *reach_handles_[2 * side], *reach_handles_[2 * side + 1]);
-  }
-  reaches_[side] = std::move(reach);
-}
-
-ReachPlayer* CharacterPlayer::reaching(int side) {
-  auto& reach = reaches_[static_cast<std::size_t>(side)];
-  return reach ? &*reach : nullptr;
-}
-
-void CharacterPlayer::play_throw(ThrowPlayer made) {
-  const std::size_t side = static_cast<std::size_t>(made.side());
-  if (throws_[side])
-    throws_[side]->drop(
-        time_s_, *reach_handles_[2 * side], *reach_handles_[2 * side + 1]);
-  throws_[side] = std::move(made);
-}
-
-const ThrowPlayer* CharacterPlayer::throwing(int side) const {
-  const auto& made = throws_[static_cast<std::size_t>(side)];
-  return made ? &*made : nullptr;
-}
-
-ThrowPlayer* CharacterPlayer::throwing(int side) {
-  return const_cast<ThrowPlayer*>(std::as_const(*this).throwing(side));
-}
-
-void CharacterPlayer::move_throws(double time_s, double step_s) {
-  for (std::size_t side = 0; side < 2; ++side) {
-    if (!throws_[side] || throws_[side]->is_over()) continue;
-    const ThrowStage stage{time_s,
-                           step_s,
-                           blend_,
-                           world_from_joint_,
-                           shift_,
-                           *adapter_,
-                           supports_,
-                           *reach_handles_[2 * side],
-                           *reach_handles_[2 * side + 1]};
-    throws_[side]->step(stage);
-    if (throws_[side]->holds()) reaches_[side].reset();
-  }
-}
-
-void CharacterPlayer::steer_root(double time_s, double step_s) {
-  if (!steer_) return;
-  std::array<bool, 2> bears{};
-  for (std::size_t side = 0; side < 2; ++side)
-    bears[side] = bore_[side][0] || bore_[side][1];
-  steer_->step(time_s, step_s, ankle_xz_m_, bears, blend_);
-}
-
-void CharacterPlayer::move_hands(double time_s, double step_s) {
-  for (std::size_t side = 0; side < 2; ++side) {
-    if (!reaches_[side]) continue;
-    if (!reaches_[side]->step(time_s,
-                              step_s,
-                              blend_,
-                              world_from_joint_,
-                              *reach_handles_[2 * side],
-                              *reach_handles_[2 * side + 1])) {
-      reaches_[side].reset();
-    }
-  }
-}
-
 void CharacterPlayer::step(double time_s, double step_s) {
   time_s_ = time_s;
   if (!blend_.step(time_s, step_s)) return;
@@ -292,6 +252,7 @@ void CharacterPlayer::step(double time_s, double step_s) {
     feet_[1].reset();
     floor_.reset();
     report_.stands = {};
+    keep_shown();
     return;
   }
   meet_floor(step_s);
@@ -300,10 +261,19 @@ void CharacterPlayer::step(double time_s, double step_s) {
   hold_feet(time_s, step_s);
   ride_floor(time_s, step_s);
   move_hands(time_s, step_s);
+  move_follows(time_s, step_s);
+  clip_constraints_.step(time_s, map_->leg_length_m, blend_);
   report_.adapt = adapter_->adapt(reference_, time_s, pose_);
   const std::size_t hips = index(map_->hips());
   shift_.hips_m = adapter_->world_from_joint()[hips].translation -
                   world_from_joint_[hips].translation;
+  keep_shown();
+}
+
+void CharacterPlayer::keep_shown() {
+  if (points_.empty()) return;
+  const auto joints = world_from_joint();
+  shown_joints_.assign(joints.begin(), joints.end());
 }
 
 }  // namespace marey::engine

@@ -15,7 +15,10 @@
 #include "engine/feet/floor_ride.h"
 #include "engine/feet/foot_hold.h"
 #include "engine/feet/root_pull.h"
+#include "engine/models/jump_body.h"
 #include "engine/step/blend_player.h"
+#include "engine/step/clip_constraints.h"
+#include "engine/step/follow_player.h"
 #include "engine/step/reach_player.h"
 #include "engine/step/rehearsal.h"
 #include "engine/step/steer_player.h"
@@ -52,6 +55,8 @@ struct CharacterSpec {
   ConstraintSet constraints;
   /// May play reaches and throws: reserves constraints of both hands.
   bool reaches = false;
+  /// Clips whose constraints act while they play: ClipConstraints.
+  std::vector<std::string> constrained_clips;
   BlendPlayerOptions blend;
   FootHoldOptions feet;
   retarget::AdaptOptions adapt;
@@ -93,6 +98,26 @@ class CharacterPlayer {
   /// The last throw of a hand, also after it is over, for its result; nullptr: none.
   [[nodiscard]] ThrowPlayer* throwing(int side);
   [[nodiscard]] const ThrowPlayer* throwing(int side) const;
+  /// Returns a jump of a clip on this body; prepares it if it is the first of this clip.
+  /// Errors: JumpBody::make()'s.
+  [[nodiscard]] Result<std::shared_ptr<const JumpBody>> jump_body(std::size_t clip,
+                                                                  int jump);
+  /// Adds a clip of this character alone, in place of one that no action plays. Returns
+  /// its position in the base of blend().
+  [[nodiscard]] std::size_t add_clip(MotionClip clip);
+  /// Errors: FollowPlayer::make()'s; no such constraint; its goal has no point, or a
+  /// distance.
+  [[nodiscard]] Result<FollowPlayer> make_follow(ActionId id,
+                                                 const FollowWish& wish) const;
+  /// Answers whether a point can follow to a target. Errors: those of make_follow().
+  [[nodiscard]] Result<FollowFeasibility> ask_follow(const FollowWish& wish,
+                                                     double step_s) const;
+  /// Leads a point after a target, instead of an earlier one of that point.
+  void follow(FollowPlayer made);
+  /// nullptr: no follow of this id.
+  [[nodiscard]] FollowPlayer* following(ActionId id);
+  [[nodiscard]] const FollowPlayer* following(ActionId id) const;
+  [[nodiscard]] std::span<FollowPlayer> follows() { return follows_; }
   [[nodiscard]] bool can_reach() const { return reach_handles_[0].has_value(); }
 
   [[nodiscard]] BlendPlayer& blend() { return blend_; }
@@ -121,6 +146,7 @@ class CharacterPlayer {
  private:
   CharacterPlayer(std::shared_ptr<const MotionBase> base,
                   CharacterSpec spec,
+                  std::vector<FollowPoint> points,
                   retarget::Adapter adapter);
   [[nodiscard]] FootReference foot_reference(std::size_t side, double time_s) const;
   void meet_floor(double step_s);
@@ -129,6 +155,10 @@ class CharacterPlayer {
   void steer_root(double time_s, double step_s);
   void move_throws(double time_s, double step_s);
   void move_hands(double time_s, double step_s);
+  void move_follows(double time_s, double step_s);
+  void drop_hand(std::size_t side);
+  void keep_shown();
+  void drop_follow(std::size_t side);
 
   std::shared_ptr<const Character> character_;
   std::shared_ptr<const retarget::BodyMap> map_;
@@ -142,8 +172,18 @@ class CharacterPlayer {
   std::array<std::optional<retarget::Adapter::Handle>, 4> reach_handles_{};
   std::array<std::optional<ReachPlayer>, 2> reaches_{};
   std::array<std::optional<ThrowPlayer>, 2> throws_{};
+  std::vector<FollowPoint> points_;  ///< Points that may follow.
+  std::vector<FollowPlayer> follows_;
+  ClipConstraints clip_constraints_;
+  struct PreparedJump {
+    std::size_t clip = 0;
+    int jump = 0;
+    std::shared_ptr<const JumpBody> body;
+  };
+  std::vector<PreparedJump> jumps_;
   std::optional<SteerPlayer> steer_;
-  BodyShift shift_;  ///< After the last step.
+  BodyShift shift_;                           ///< After the last step.
+  std::vector<RigidTransform> shown_joints_;  ///< After the last step, for follows.
   double time_s_ = 0.0;
   std::array<FootHold, 2> feet_{};
   FloorLevel floor_;
