@@ -17,6 +17,7 @@
 #include "app/convert/mannequin_commands.h"
 #include "app/edit/edit_commands.h"
 #include "app/engine/base_commands.h"
+#include "app/engine/blend_commands.h"
 #include "app/inspect/doctor_commands.h"
 #include "app/inspect/inspect_commands.h"
 #include "app/jump/jump_commands.h"
@@ -59,6 +60,7 @@ struct Arguments {
   JumpArguments jump;
   LibraryArguments library;
   BaseArguments base;
+  BlendArguments blend;
   ConvertArguments convert;
   MannequinArguments mannequin;
   PrintArguments print;
@@ -119,6 +121,7 @@ int run(int argc, char** argv) {
   add_jump_command(app, args.jump, chosen);
   add_library_command(app, args.library, chosen);
   add_base_command(app, args.base, chosen);
+  add_blend_command(app, args.blend, chosen);
   add_convert_command(app, args.convert, chosen);
   add_mannequin_command(app, args.mannequin, chosen);
   add_print_commands(app, args.print, chosen);

@@ -25,6 +25,16 @@ std::array<bool, kGroupCount> groups_of(const retarget::BodyMap& map) {
   return out;
 }
 
+// Live postures may be ahead of the engine by so much.
+constexpr double kMaxAhead_s = 0.1;
+
+Error no_room(const std::string& clip) {
+  return bad_input(
+      "action \"" + clip + "\"",
+      "the character has " + std::to_string(kMaxActions) + " actions already",
+      "stop some of them first");
+}
+
 }  // namespace
 
 Engine::Engine(std::shared_ptr<const MotionBase> base, const EngineOptions& options)
@@ -46,6 +56,7 @@ Result<Engine> Engine::make(std::shared_ptr<const MotionBase> base,
 }
 
 Result<CharacterId> Engine::add(CharacterSpec spec) {
+  MAREY_ASSERT(!is_stepping_);
   const std::string where = "character \"" + spec.character.name + "\"";
   if (!std::isfinite(spec.start.x_m + spec.start.z_m + spec.start.heading_rad)) {
     return bad_input(where, "its start is not finite", "give a place on the floor");
@@ -56,6 +67,7 @@ Result<CharacterId> Engine::add(CharacterSpec spec) {
   auto player = CharacterPlayer::make(base_, std::move(spec));
   if (!player) return player.error();
   characters_.push_back(*std::move(player));
+  stepped_.push_back(steps_);
   return CharacterId{static_cast<int>(characters_.size()) - 1};
 }
 
@@ -72,12 +84,7 @@ Result<Action> Engine::checked(CharacterId character, const ActionWish& wish) co
   const CharacterPlayer& who = player(character);
   auto action = check_wish(wish, *base_, who.blend().actions(), groups_of(who.map()));
   if (!action) return action.error();
-  if (!who.blend().has_room()) {
-    return bad_input(
-        "action \"" + wish.clip + "\"",
-        "the character has " + std::to_string(kMaxActions) + " actions already",
-        "stop some of them first");
-  }
+  if (!who.blend().has_room()) return no_room(wish.clip);
   return action;
 }
 
@@ -91,6 +98,35 @@ Result<ActionId> Engine::play(CharacterId character, const ActionWish& wish) {
   auto action = checked(character, wish);
   if (!action) return action.error();
   return add_action(character, *std::move(action));
+}
+
+Result<ActionId> Engine::play(CharacterId character, const LiveWish& wish) {
+  if (const auto known = check_character(character); !known) return known.error();
+  if (const Status good = check_live_options(wish.options); !good) return good.error();
+  CharacterPlayer& who = player(character);
+  auto action =
+      check_live_wish(wish.action, *base_, who.blend().actions(), groups_of(who.map()));
+  if (!action) return action.error();
+  if (!who.blend().has_room()) return no_room(wish.action.clip);
+  action->id = ActionId{next_action_++};
+  who.blend().add_live(*action, wish.options);
+  return action->id;
+}
+
+Status Engine::push(CharacterId character, const LivePosture& posture) {
+  if (const auto known = check_character(character); !known) return known.error();
+  LivePlayer* live = player(character).blend().live();
+  if (live == nullptr) {
+    return bad_input("character " + std::to_string(static_cast<int>(character)),
+                     "it has no live source",
+                     "play one with a LiveWish first");
+  }
+  if (posture.time_s > time_s() + step_s() + kMaxAhead_s) {
+    return bad_input("live posture",
+                     "its time is later than the next step by more than 0.1 s",
+                     "give times on the engine's clock");
+  }
+  return live->push(posture);
 }
 
 Result<ActionId> Engine::play(CharacterId character, const SteerWish& wish) {
@@ -119,20 +155,67 @@ Result<ActionId> Engine::play(CharacterId character, const ReachWish& wish) {
   return add_action(character, *std::move(action));
 }
 
-Result<ReachPlayer> Engine::made_reach(CharacterId character,
-                                       const Action& action,
-                                       const ReachWish& wish) const {
-  const CharacterPlayer& who = player(character);
-  if (!who.can_reach()) {
-    return bad_input("action \"" + wish.action.clip + "\"",
+Status Engine::check_hand(CharacterId character,
+                          const std::string& clip,
+                          int side) const {
+  if (!player(character).can_reach()) {
+    return bad_input("action \"" + clip + "\"",
                      "the character was added without constraints for its hands",
                      "add it with CharacterSpec::reaches");
   }
-  if (wish.side != 0 && wish.side != 1) {
-    return bad_input("action \"" + wish.action.clip + "\"",
-                     "there is no hand " + std::to_string(wish.side),
-                     "give 0 for the left hand or 1 for the right one");
+  if (side == 0 || side == 1) return Done{};
+  return bad_input("action \"" + clip + "\"",
+                   "there is no hand " + std::to_string(side),
+                   "give 0 for the left hand or 1 for the right one");
+}
+
+Result<ThrowPlayer> Engine::made_throw(CharacterId character,
+                                       Action action,
+                                       const ThrowWish& wish) const {
+  if (const Status good = check_hand(character, wish.action.clip, wish.side); !good) {
+    return good.error();
   }
+  const CharacterPlayer& who = player(character);
+  action.id = ActionId{next_action_};
+  return ThrowPlayer::make(*base_, action, wish, who.character().skeleton, who.map());
+}
+
+Result<ActionId> Engine::play(CharacterId character, const ThrowWish& wish) {
+  auto action = checked(character, wish.action);
+  if (!action) return action.error();
+  auto made = made_throw(character, *action, wish);
+  if (!made) return made.error();
+  player(character).play_throw(*std::move(made));
+  return add_action(character, *std::move(action));
+}
+
+Status Engine::aim_ball(CharacterId character, int side, const glm::dvec3& p_in_world) {
+  if (const auto known = check_character(character); !known) return known.error();
+  if (side == 0 || side == 1) {
+    if (ThrowPlayer* made = player(character).throwing(side)) {
+      return made->aim(p_in_world);
+    }
+  }
+  return bad_input("character " + std::to_string(static_cast<int>(character)),
+                   "this hand does not throw",
+                   "play a throw with it first");
+}
+
+Result<ThrowFeasibility> Engine::ask(CharacterId character, const ThrowWish& wish) const {
+  auto action = checked(character, wish.action);
+  if (!action) return action.error();
+  auto made = made_throw(character, *action, wish);
+  if (!made) return made.error();
+  return made->ask(player(character).blend().root(), *action, step_s());
+}
+
+Result<ReachPlayer> Engine::made_reach(CharacterId character,
+                                       const Action& action,
+                                       const ReachWish& wish) const {
+  if (const Status good = check_hand(character, wish.action.clip, wish.side); !good) {
+    return good.error();
+  }
+  const CharacterPlayer& who = player(character);
   return ReachPlayer::make(*base_,
                            ActionId{next_action_},
                            action.clip,
@@ -174,18 +257,39 @@ Status Engine::stop_all(CharacterId character, std::optional<int> layer) {
 }
 
 void Engine::advance(int steps) {
-  MAREY_ASSERT(steps >= 0);
+  MAREY_ASSERT(steps >= 0 && !is_stepping_);
   for (int i = 0; i < steps; ++i) {
-    ++steps_;
-    const double now_s = time_s();
-    if (options_.threads == 1) {
-      for (CharacterPlayer& character : characters_) character.step(now_s, step_s());
-    } else {
+    begin_step();
+    if (options_.threads > 1) {
       in_parallel(characters_.size(),
                   static_cast<std::size_t>(options_.threads),
-                  [&](std::size_t c) { characters_[c].step(now_s, step_s()); });
+                  [&](std::size_t c) { step(CharacterId{static_cast<int>(c)}); });
     }
+    end_step();
   }
+}
+
+void Engine::begin_step() {
+  MAREY_ASSERT(!is_stepping_);
+  is_stepping_ = true;
+  ++steps_;
+}
+
+void Engine::step(CharacterId character) {
+  MAREY_ASSERT(is_stepping_);
+  CharacterPlayer& who = player(character);
+  std::int64_t& last = stepped_[static_cast<std::size_t>(character)];
+  MAREY_ASSERT(last < steps_);
+  last = steps_;
+  who.step(time_s(), step_s());
+}
+
+void Engine::end_step() {
+  MAREY_ASSERT(is_stepping_);
+  for (std::size_t c = 0; c < characters_.size(); ++c) {
+    if (stepped_[c] < steps_) step(CharacterId{static_cast<int>(c)});
+  }
+  is_stepping_ = false;
 }
 
 double Engine::time_s() const {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -57,6 +58,14 @@ class Engine {
   /// exist, is over, or has no end; an event that its clip does not have; more than
   /// kMaxActions actions.
   [[nodiscard]] Result<ActionId> play(CharacterId character, const ActionWish& wish);
+  /// Requests to play what a performer does; it begins with the second posture. It
+  /// replaces an earlier live source. Errors: those of an action without a clip, and of
+  /// check_live_options().
+  [[nodiscard]] Result<ActionId> play(CharacterId character, const LiveWish& wish);
+  /// Gives the live source the performer's posture at one instant. Allocates nothing.
+  /// Errors: there is no live source; those of LiveSource::push(); a time later than that
+  /// of the next step by more than 0.1 s.
+  [[nodiscard]] Status push(CharacterId character, const LivePosture& posture);
   /// Requests a walk to a goal. It replaces an earlier one. Errors: those of an action
   /// and of SteerPlayer::make().
   [[nodiscard]] Result<ActionId> play(CharacterId character, const SteerWish& wish);
@@ -71,6 +80,18 @@ class Engine {
   /// Errors: those of play().
   [[nodiscard]] Result<ReachFeasibility> ask(CharacterId character,
                                              const ReachWish& wish) const;
+  /// Requests a throw. It replaces an earlier throw of that hand. CharacterPlayer::
+  /// throwing() has the result after the release. Errors: those of an action and of
+  /// ThrowPlayer::make(); a character without CharacterSpec::reaches.
+  [[nodiscard]] Result<ActionId> play(CharacterId character, const ThrowWish& wish);
+  /// Moves the point that the ball of a hand is to meet. Errors: the hand does not throw;
+  /// ThrowPlayer::aim()'s.
+  [[nodiscard]] Status aim_ball(CharacterId character,
+                                int side,
+                                const glm::dvec3& p_in_world);
+  /// Answers whether a throw can succeed, without playing it. Errors: those of play().
+  [[nodiscard]] Result<ThrowFeasibility> ask(CharacterId character,
+                                             const ThrowWish& wish) const;
   /// Fades an action out, or takes a waiting one back. Error: it is over or unknown.
   [[nodiscard]] Status stop(CharacterId character, ActionId action);
   /// Fades out all actions of a layer; nullopt means all layers.
@@ -78,6 +99,19 @@ class Engine {
 
   /// Moves all characters on by this many steps. Precondition: steps >= 0.
   void advance(int steps = 1);
+
+  /// Moves all characters on by one step, one after another, with the caller between
+  /// them: a character whose targets are points of another body of the same step is
+  /// stepped after that body. end_step() steps the characters that were not stepped, in
+  /// the order of their ids. The results equal those of advance() if the caller changes
+  /// nothing in between. Requests that are made between begin_step() and step() of their
+  /// character begin with this step. All in one thread; allocates nothing.
+  /// Preconditions: begin_step() and end_step() alternate, without advance() or add()
+  /// between them; a character is stepped once. time_s() is that of the step from
+  /// begin_step() on.
+  void begin_step();
+  void step(CharacterId character);
+  void end_step();
 
   [[nodiscard]] double time_s() const;
   [[nodiscard]] double step_s() const { return 1.0 / options_.step_hz; }
@@ -98,11 +132,19 @@ class Engine {
   [[nodiscard]] Result<ReachPlayer> made_reach(CharacterId character,
                                                const Action& action,
                                                const ReachWish& wish) const;
+  [[nodiscard]] Status check_hand(CharacterId character,
+                                  const std::string& clip,
+                                  int side) const;
+  [[nodiscard]] Result<ThrowPlayer> made_throw(CharacterId character,
+                                               Action action,
+                                               const ThrowWish& wish) const;
   ActionId add_action(CharacterId character, Action action);
 
   std::shared_ptr<const MotionBase> base_;
   EngineOptions options_;
   std::vector<CharacterPlayer> characters_;
+  std::vector<std::int64_t> stepped_;  ///< By character: number of its last step.
+  bool is_stepping_ = false;           ///< Between begin_step() and end_step().
   std::int64_t steps_ = 0;
   std::int64_t next_action_ = 1;
 };

@@ -286,10 +286,10 @@ JudgedThrow judge(const CapturedHand& hand,
           glm::length(v)};
 }
 
-engine::ThrowWish throw_wish(const engine::ThrowParameters& captured,
+engine::ThrowChanges throw_wish(const engine::ThrowParameters& captured,
                              std::size_t parameter,
                              double by) {
-  engine::ThrowWish wish;
+  engine::ThrowChanges wish;
   const glm::dvec3 wrist = captured.wrist_in_heading_m;
   if (parameter == 0) wish.x_m = wrist.x + 0.15 * by;
   if (parameter == 1) wish.y_m = wrist.y + 0.15 * by;
@@ -329,8 +329,8 @@ void measure_throws(const CapturedHand& hand, const glm::dvec3& lever) {
   for (std::size_t parameter = 0; parameter < names.size(); ++parameter) {
     double place_mm = 0.0, angle_deg = 0.0, speed = 0.0, late_ms = 0.0;
     for (int value = -4; value <= 4; ++value) {
-      const engine::ThrowWish wish = throw_wish(captured, parameter, value / 4.0);
-      const engine::ThrowParameters asked = engine::with_wish(captured, wish);
+      const engine::ThrowChanges wish = throw_wish(captured, parameter, value / 4.0);
+      const engine::ThrowParameters asked = engine::with_changes(captured, wish);
       const double start_s = asked.release_s - 0.5;
       engine::ThrowCourse course;
       course.start(0.0, captured, wish);

@@ -34,6 +34,15 @@ Motion3 central_differences(const glm::dvec3& before,
           (after - 2.0 * now + before) / (step_s * step_s)};
 }
 
+Motion3 backward_differences(const glm::dvec3& two_before,
+                             const glm::dvec3& before,
+                             const glm::dvec3& now,
+                             double step_s) {
+  return {now,
+          (3.0 * now - 4.0 * before + two_before) / (2.0 * step_s),
+          (now - 2.0 * before + two_before) / (step_s * step_s)};
+}
+
 bool is_zero(const Motion3& motion) {
   const glm::dvec3 zero(0.0);
   return motion.value == zero && motion.rate == zero && motion.acceleration == zero;
@@ -53,6 +62,27 @@ HandMotion hand_motion(const RigidTransform& before,
                                            glm::dvec3(0.0),
                                            rotation_vector(after.rotation * now_inverse),
                                            step_s);
+  return {place.value,
+          place.rate,
+          place.acceleration,
+          now.rotation,
+          turn.rate,
+          turn.acceleration};
+}
+
+HandMotion hand_motion_until(const RigidTransform& two_before,
+                             const RigidTransform& before,
+                             const RigidTransform& now,
+                             double step_s) {
+  MAREY_ASSERT(step_s > 0.0);
+  const Motion3 place = backward_differences(
+      two_before.translation, before.translation, now.translation, step_s);
+  const glm::dquat now_inverse = glm::conjugate(now.rotation);
+  const Motion3 turn =
+      backward_differences(rotation_vector(two_before.rotation * now_inverse),
+                           rotation_vector(before.rotation * now_inverse),
+                           glm::dvec3(0.0),
+                           step_s);
   return {place.value,
           place.rate,
           place.acceleration,

@@ -28,6 +28,13 @@ struct HandMotion {
                                      const RigidTransform& after,
                                      double step_s);
 
+/// Returns the motion at the last of three frames of a hand that are `step_s` apart, from
+/// these alone: for instants at which the motion has a kink. Precondition: step_s > 0.
+[[nodiscard]] HandMotion hand_motion_until(const RigidTransform& two_before,
+                                           const RigidTransform& before,
+                                           const RigidTransform& now,
+                                           double step_s);
+
 /// Returns the place and the rotation `after_s` later if both accelerations stay.
 [[nodiscard]] RigidTransform continued(const HandMotion& hand, double after_s);
 

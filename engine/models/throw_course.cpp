@@ -29,37 +29,37 @@ Status refuse_throw(const std::string& parameter, const std::string& next) {
 
 }  // namespace
 
-Status check_throw(const ThrowWish& wish, double duration_s) {
+Status check_throw(const ThrowChanges& asked, double duration_s) {
   const auto is_wrong = [](const std::optional<double>& value, double min, double max) {
     return value && !(std::isfinite(*value) && *value >= min && *value <= max);
   };
   constexpr double kFar = 1e6;
-  if (is_wrong(wish.x_m, -kFar, kFar)) return refuse_throw("x_m", "give metres");
-  if (is_wrong(wish.y_m, -kFar, kFar)) return refuse_throw("y_m", "give metres");
-  if (is_wrong(wish.z_m, -kFar, kFar)) return refuse_throw("z_m", "give metres");
-  if (is_wrong(wish.azimuth_rad, -kFar, kFar)) {
+  if (is_wrong(asked.x_m, -kFar, kFar)) return refuse_throw("x_m", "give metres");
+  if (is_wrong(asked.y_m, -kFar, kFar)) return refuse_throw("y_m", "give metres");
+  if (is_wrong(asked.z_m, -kFar, kFar)) return refuse_throw("z_m", "give metres");
+  if (is_wrong(asked.azimuth_rad, -kFar, kFar)) {
     return refuse_throw("azimuth_rad", "give radians");
   }
-  if (is_wrong(wish.elevation_rad, -glm::half_pi<double>(), glm::half_pi<double>())) {
+  if (is_wrong(asked.elevation_rad, -glm::half_pi<double>(), glm::half_pi<double>())) {
     return refuse_throw("elevation_rad", "give radians between -pi/2 and pi/2");
   }
-  if (is_wrong(wish.speed_m_s, 1e-3, kFar)) {
+  if (is_wrong(asked.speed_m_s, 1e-3, kFar)) {
     return refuse_throw("speed_m_s", "give at least 0.001 m/s");
   }
-  if (is_wrong(wish.release_s, 0.0, duration_s)) {
+  if (is_wrong(asked.release_s, 0.0, duration_s)) {
     return refuse_throw("release_s", "give a time within the clip");
   }
   return Done{};
 }
 
-ThrowParameters with_wish(const ThrowParameters& captured, const ThrowWish& wish) {
-  return {glm::dvec3(wish.x_m.value_or(captured.wrist_in_heading_m.x),
-                     wish.y_m.value_or(captured.wrist_in_heading_m.y),
-                     wish.z_m.value_or(captured.wrist_in_heading_m.z)),
-          wish.azimuth_rad.value_or(captured.azimuth_rad),
-          wish.elevation_rad.value_or(captured.elevation_rad),
-          wish.speed_m_s.value_or(captured.speed_m_s),
-          wish.release_s.value_or(captured.release_s)};
+ThrowParameters with_changes(const ThrowParameters& captured, const ThrowChanges& asked) {
+  return {glm::dvec3(asked.x_m.value_or(captured.wrist_in_heading_m.x),
+                     asked.y_m.value_or(captured.wrist_in_heading_m.y),
+                     asked.z_m.value_or(captured.wrist_in_heading_m.z)),
+          asked.azimuth_rad.value_or(captured.azimuth_rad),
+          asked.elevation_rad.value_or(captured.elevation_rad),
+          asked.speed_m_s.value_or(captured.speed_m_s),
+          asked.release_s.value_or(captured.release_s)};
 }
 
 glm::dvec3 ball_place(const ThrowInstant& thrower) {
@@ -98,15 +98,24 @@ glm::dvec3 throw_direction(double heading_rad, double azimuth_rad, double elevat
 
 void ThrowCourse::start(double time_s,
                         const ThrowParameters& captured,
-                        const ThrowWish& wish,
+                        const ThrowChanges& asked,
                         double half_width_s) {
   MAREY_ASSERT(half_width_s > 0.0);
   *this = ThrowCourse{};
-  wanted_ = with_wish(captured, wish);
-  is_displaced_ = wish.x_m || wish.y_m || wish.z_m || wish.azimuth_rad ||
-                  wish.elevation_rad || wish.speed_m_s || wish.release_s;
+  wanted_ = with_changes(captured, asked);
+  is_displaced_ = asked.x_m || asked.y_m || asked.z_m || asked.azimuth_rad ||
+                  asked.elevation_rad || asked.speed_m_s || asked.release_s;
   half_width_s_ = half_width_s;
   time_s_ = time_s;
+}
+
+void ThrowCourse::want(const ThrowParameters& wanted) {
+  wanted_ = wanted;
+  is_displaced_ = true;
+}
+
+Motion3 ThrowCourse::planned(double time_s) const {
+  return has_plan_ ? leg_.at(time_s) : Motion3{};
 }
 
 Motion3 ThrowCourse::wanted_displacement(const ThrowInstant& clip_at_release) const {

@@ -25,7 +25,7 @@ struct ThrowParameters {
 };
 
 /// Changed parameters of a throw. The others keep their captured values.
-struct ThrowWish {
+struct ThrowChanges {
   std::optional<double> x_m;
   std::optional<double> y_m;
   std::optional<double> z_m;
@@ -37,11 +37,11 @@ struct ThrowWish {
 
 /// Errors (bad input, naming the parameter): a number that is not finite, speed <= 0,
 /// elevation outside of [-pi/2, pi/2], release outside of [0, duration_s].
-[[nodiscard]] Status check_throw(const ThrowWish& wish, double duration_s);
+[[nodiscard]] Status check_throw(const ThrowChanges& asked, double duration_s);
 
-/// Returns the captured parameters replaced where the wish names one.
-[[nodiscard]] ThrowParameters with_wish(const ThrowParameters& captured,
-                                        const ThrowWish& wish);
+/// Returns the captured parameters replaced where the changes name one.
+[[nodiscard]] ThrowParameters with_changes(const ThrowParameters& captured,
+                                           const ThrowChanges& asked);
 
 /// The thrower at the release.
 struct ThrowInstant {
@@ -97,18 +97,26 @@ struct ThrowOutput {
 /// displacement of the wrist, polynomials of degree five before and after the release,
 /// with two continuous derivatives, zero outside of `half_width_s` about it. Its value
 /// and rate at the release are such that place and velocity of the ball are as asked.
-/// Recomputed in each step from its current state, except in the last two steps. A wish
+/// Recomputed in each step from its current state, except in the last two steps. A throw
 /// that names nothing displaces nothing, to the bit. No function allocates.
 class ThrowCourse {
  public:
-  /// Precondition: check_throw() accepts the wish; half_width_s > 0.
+  /// Precondition: check_throw() accepts the changes; half_width_s > 0.
   void start(double time_s,
              const ThrowParameters& captured,
-             const ThrowWish& wish,
+             const ThrowChanges& asked,
              double half_width_s = 0.35);
+
+  /// Changes the parameters that are wanted, also those that start() did not name. Has no
+  /// effect on the last two steps before the release.
+  void want(const ThrowParameters& wanted);
+  [[nodiscard]] const ThrowParameters& wanted() const { return wanted_; }
 
   /// Precondition: started; times ascend by at most a few steps.
   ThrowOutput step(const ThrowInput& input);
+
+  /// Returns the displacement of the present plan at a time; zero without a plan.
+  [[nodiscard]] Motion3 planned(double time_s) const;
 
  private:
   [[nodiscard]] Motion3 wanted_displacement(const ThrowInstant& clip_at_release) const;

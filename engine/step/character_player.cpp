@@ -155,6 +155,14 @@ void CharacterPlayer::hold_feet(double time_s, double step_s) {
     places[side] = place;
     report_.stands[side] = feet_[side].holds();
     ankle_xz_m_[side] = {place.ankle_in_world.x, place.ankle_in_world.z};
+    StandingFoot& now = shift_.feet[side];
+    now.stands = report_.stands[side];
+    now.ankle_in_world = glm::mix(reference.ankle_in_world, place.ankle_in_world, share);
+    now.world_from_t_pose = glm::normalize(
+        glm::slerp(reference.world_from_t_pose, place.world_from_t_pose, share));
+    now.from_reference_m = now.ankle_in_world - reference.ankle_in_world;
+    supports_[side]->set_target(now.ankle_in_world);
+    supports_[side]->set_orientation(now.world_from_t_pose);
     if (report_.stands[side]) {
       away_m += ankle_xz_m_[side] -
                 glm::dvec2(reference.ankle_in_world.x, reference.ankle_in_world.z);
@@ -210,12 +218,50 @@ void CharacterPlayer::lead_feet(const std::array<FootHold::Place, 2>& places,
 
 void CharacterPlayer::reach(ReachPlayer reach) {
   const std::size_t side = static_cast<std::size_t>(reach.side());
+  if (throws_[side]) {
+    throws_[side]->drop(
+        time_s_, *reach_handles_[2 * side], *reach_handles_[2 * side + 1]);
+  }
   reaches_[side] = std::move(reach);
 }
 
 ReachPlayer* CharacterPlayer::reaching(int side) {
   auto& reach = reaches_[static_cast<std::size_t>(side)];
   return reach ? &*reach : nullptr;
+}
+
+void CharacterPlayer::play_throw(ThrowPlayer made) {
+  const std::size_t side = static_cast<std::size_t>(made.side());
+  if (throws_[side])
+    throws_[side]->drop(
+        time_s_, *reach_handles_[2 * side], *reach_handles_[2 * side + 1]);
+  throws_[side] = std::move(made);
+}
+
+const ThrowPlayer* CharacterPlayer::throwing(int side) const {
+  const auto& made = throws_[static_cast<std::size_t>(side)];
+  return made ? &*made : nullptr;
+}
+
+ThrowPlayer* CharacterPlayer::throwing(int side) {
+  return const_cast<ThrowPlayer*>(std::as_const(*this).throwing(side));
+}
+
+void CharacterPlayer::move_throws(double time_s, double step_s) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (!throws_[side] || throws_[side]->is_over()) continue;
+    const ThrowStage stage{time_s,
+                           step_s,
+                           blend_,
+                           world_from_joint_,
+                           shift_,
+                           *adapter_,
+                           supports_,
+                           *reach_handles_[2 * side],
+                           *reach_handles_[2 * side + 1]};
+    throws_[side]->step(stage);
+    if (throws_[side]->holds()) reaches_[side].reset();
+  }
 }
 
 void CharacterPlayer::steer_root(double time_s, double step_s) {
@@ -241,6 +287,7 @@ void CharacterPlayer::move_hands(double time_s, double step_s) {
 }
 
 void CharacterPlayer::step(double time_s, double step_s) {
+  time_s_ = time_s;
   if (!blend_.step(time_s, step_s)) return;
   steer_root(time_s, step_s);
   report_.transition = blend_.report();
@@ -264,9 +311,14 @@ void CharacterPlayer::step(double time_s, double step_s) {
     return;
   }
   meet_floor(step_s);
+  // Before the feet, because a throw poses the body at other times.
+  move_throws(time_s, step_s);
   hold_feet(time_s, step_s);
   move_hands(time_s, step_s);
   report_.adapt = adapter_->adapt(reference_, time_s, pose_);
+  const std::size_t hips = index(map_->hips());
+  shift_.hips_m = adapter_->world_from_joint()[hips].translation -
+                  world_from_joint_[hips].translation;
 }
 
 }  // namespace marey::engine

@@ -16,7 +16,9 @@
 #include "engine/feet/root_pull.h"
 #include "engine/step/blend_player.h"
 #include "engine/step/reach_player.h"
+#include "engine/step/rehearsal.h"
 #include "engine/step/steer_player.h"
+#include "engine/step/throw_player.h"
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -47,7 +49,8 @@ struct CharacterSpec {
   /// Constraints that may act on it. Activations begin as they state; the caller starts
   /// and moves them through constraint(). Supports of the feet are added.
   ConstraintSet constraints;
-  bool reaches = false;  ///< May play reaches: reserves constraints of both hands.
+  /// May play reaches and throws: reserves constraints of both hands.
+  bool reaches = false;
   BlendPlayerOptions blend;
   FootHoldOptions feet;
   retarget::AdaptOptions adapt;
@@ -79,6 +82,11 @@ class CharacterPlayer {
   [[nodiscard]] SteerPlayer* steering() { return steer_ ? &*steer_ : nullptr; }
   /// nullptr: that hand (0 left, 1 right) does not reach.
   [[nodiscard]] ReachPlayer* reaching(int side);
+  /// Leads a hand through a throw, instead of an earlier throw or reach of that hand.
+  void play_throw(ThrowPlayer made);
+  /// The last throw of a hand, also after it is over, for its result; nullptr: none.
+  [[nodiscard]] ThrowPlayer* throwing(int side);
+  [[nodiscard]] const ThrowPlayer* throwing(int side) const;
   [[nodiscard]] bool can_reach() const { return reach_handles_[0].has_value(); }
 
   [[nodiscard]] BlendPlayer& blend() { return blend_; }
@@ -96,6 +104,10 @@ class CharacterPlayer {
   [[nodiscard]] std::optional<retarget::Adapter::Handle> constraint(std::string_view id) {
     return adapter_->constraint(id);
   }
+  /// Picks up or puts down a load of the character; see Adapter::carry().
+  bool carry(std::string_view load, bool carried) {
+    return adapter_->carry(load, carried);
+  }
   /// Changes the level: over 0.2 s from and to kBlended. kKinetic needs a spec of
   /// kKinetic.
   void set_level(DetailLevel level) { level_ = level; }
@@ -110,6 +122,7 @@ class CharacterPlayer {
   void hold_feet(double time_s, double step_s);
   void lead_feet(const std::array<FootHold::Place, 2>& places, double share);
   void steer_root(double time_s, double step_s);
+  void move_throws(double time_s, double step_s);
   void move_hands(double time_s, double step_s);
 
   std::shared_ptr<const Character> character_;
@@ -123,7 +136,10 @@ class CharacterPlayer {
   /// By hand: the point, then the rotation.
   std::array<std::optional<retarget::Adapter::Handle>, 4> reach_handles_{};
   std::array<std::optional<ReachPlayer>, 2> reaches_{};
+  std::array<std::optional<ThrowPlayer>, 2> throws_{};
   std::optional<SteerPlayer> steer_;
+  BodyShift shift_;  ///< After the last step.
+  double time_s_ = 0.0;
   std::array<FootHold, 2> feet_{};
   FloorLevel floor_;
   RootPull pull_;

@@ -48,7 +48,7 @@ struct PlayedThrow {
   int released = 0;
 };
 
-PlayedThrow play_throw(const MadeThrow& made, const ThrowWish& wish, double step_s) {
+PlayedThrow play_throw(const MadeThrow& made, const ThrowChanges& wish, double step_s) {
   const double release_s = wish.release_s.value_or(kCapturedRelease_s);
   ThrowCourse course;
   course.start(0.0, made.captured(), wish);
@@ -111,8 +111,8 @@ void expect_throw(const ThrowParameters& judged, const ThrowParameters& asked) {
   EXPECT_NEAR(judged.speed_m_s, asked.speed_m_s, 0.005 * asked.speed_m_s);
 }
 
-ThrowWish wish_for(const ThrowParameters& captured, int parameter, double by) {
-  ThrowWish wish;
+ThrowChanges wish_for(const ThrowParameters& captured, int parameter, double by) {
+  ThrowChanges wish;
   switch (parameter) {
     case 0:
       wish.x_m = captured.wrist_in_heading_m.x + 0.2 * by;
@@ -147,11 +147,11 @@ TEST(ThrowCourse, SevenParametersTimesNineValuesChangeOneAtATime) {
     for (int parameter = 0; parameter < 7; ++parameter) {
       for (int value = -4; value <= 4; ++value) {
         SCOPED_TRACE(::testing::Message() << seed << ' ' << parameter << ' ' << value);
-        const ThrowWish wish = wish_for(captured, parameter, value / 4.0);
+        const ThrowChanges wish = wish_for(captured, parameter, value / 4.0);
         ASSERT_TRUE(check_throw(wish, 1.6));
         const PlayedThrow played = play_throw(made, wish, kThrowStep_s);
         ASSERT_EQ(played.released, 1);
-        const ThrowParameters asked = with_wish(captured, wish);
+        const ThrowParameters asked = with_changes(captured, wish);
         EXPECT_NEAR(played.release.time_s, asked.release_s, 1e-9);
         expect_throw(judge_throw(made, played.wrist, kThrowStep_s, asked.release_s),
                      asked);
@@ -165,7 +165,7 @@ TEST(ThrowCourse, SevenParametersTimesNineValuesChangeOneAtATime) {
 TEST(ThrowCourse, IsZeroOutsideOfItsWidthAndHasTwoDerivatives) {
   std::mt19937 random(20);
   const MadeThrow made(random);
-  ThrowWish wish;
+  ThrowChanges wish;
   wish.speed_m_s = 1.5 * made.captured().speed_m_s;
   wish.y_m = made.captured().wrist_in_heading_m.y + 0.1;
   const double fine_s = 1.0 / 1920;
@@ -195,7 +195,7 @@ TEST(ThrowCourse, WithoutWishIsTheClipToTheBit) {
 
 TEST(ThrowCourse, WrongWishesAreRefusedByName) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  ThrowWish wish;
+  ThrowChanges wish;
   wish.speed_m_s = 0.0;
   ASSERT_FALSE(check_throw(wish, 2.0));
   EXPECT_NE(check_throw(wish, 2.0).error().message().find("speed_m_s"),
