@@ -33,6 +33,8 @@ struct BlendPlayerOptions {
   double half_life_s = 0.1;  ///< For inertial offsets.
   double max_incompatible_s = 0.10;
   double anchor_fade_s = 0.05;
+  /// A fade may begin later if it has 0.9 of its weight within this time.
+  double settle_s = 0.35;
   bool anchors_root = true;
 };
 
@@ -122,6 +124,17 @@ class BlendPlayer {
   void begin(Action& action, double time_s);
   void retire_replaced(const Action& by, double time_s, bool at_once);
   [[nodiscard]] bool synchronise(Action& action, double time_s, bool always);
+  /// Times of a clip at which an action may enter: the middle and half of the width.
+  struct EntryRange {
+    double middle_s = 0.0;
+    double half_s = 0.0;
+  };
+  [[nodiscard]] static EntryRange entry_range(const Action& action,
+                                              const MotionClip& clip);
+  void choose_landing(const Action& lead_action,
+                      Action& action,
+                      const EntryRange& range,
+                      double time_s);
   void begin_inertial(Action& action, double time_s);
   void limit_alive(double time_s);
   void end_finished(double time_s);
@@ -154,7 +167,7 @@ class BlendPlayer {
   RootPlace root_offset_;  ///< Decaying velocity that remains of a break.
   RootPlace root_offset_rate_;
   RootAnchor anchor_;
-  double anchored_s_ = 0.0;       ///< For the present or last transition.
+  double delay_s_ = 0.0;          ///< Until the fade of the action that begins.
   double anchor_strength_ = 0.0;  ///< 0 to 1, before smoothing.
   double transition_end_s_ = -1.0;
   PerFootPart bears_{};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/feet/leg_reach.h"
 #include "engine/step/landing.h"
 
 #include "core/base/smooth_step.h"
@@ -22,6 +23,7 @@ constexpr std::array<const char*, 2> kTurnIds{"reach turn left", "reach turn rig
 constexpr std::array<HumanBone, 2> kFootBones{HumanBone::kLeftFoot,
                                               HumanBone::kRightFoot};
 constexpr double kLevelFade_s = 0.2;
+constexpr double kMostDrop_m = 0.03;
 
 Constraint support_of(std::size_t side) {
   Constraint support;
@@ -176,10 +178,12 @@ void CharacterPlayer::hold_feet(double time_s, double step_s) {
   const double share = smooth_step(activation_);
   glm::dvec2 away_m(0.0);
   double standing = 0.0;
+  std::array<FootHold::Place, 2> places{};
   for (std::size_t side = 0; side < 2; ++side) {
     const FootReference reference = foot_reference(side, time_s);
     const FootHold::Place place = feet_[side].step(
         reference, map_->feet[side], blend_.rig().leg_length_m, step_s, foot_options_);
+    places[side] = place;
     report_.stands[side] = feet_[side].holds();
     ankle_xz_m_[side] = {place.ankle_in_world.x, place.ankle_in_world.z};
     StandingFoot& now = shift_.feet[side];
@@ -203,6 +207,44 @@ void CharacterPlayer::hold_feet(double time_s, double step_s) {
   root.x_m += pull_m.x;
   root.z_m += pull_m.y;
   blend_.place(root);
+  lead_feet(places, share);
+}
+
+// Lowers the hips as far as the legs of standing feet need it, at most kMostDrop_m, and
+// passes the feet to the adapter as far as the legs reach.
+void CharacterPlayer::lead_feet(const std::array<FootHold::Place, 2>& places,
+                                double share) {
+  const auto hip_in_world = [&](std::size_t side) {
+    return world_from_joint_[index(map_->leg(static_cast<int>(side)).upper)].translation;
+  };
+  double drop_m = 0.0;
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (!report_.stands[side]) continue;
+    drop_m = std::max(drop_m,
+                      hips_drop_m(hip_in_world(side),
+                                  places[side].ankle_in_world,
+                                  map_->leg(static_cast<int>(side)).length_m()));
+  }
+  drop_m = share * kMostDrop_m * std::tanh(drop_m / kMostDrop_m);
+  for (RigidTransform& joint : world_from_joint_) joint.translation.y -= drop_m;
+  reference_.root_in_world.y -= drop_m;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const FootHold::Place& place = places[side];
+    const JointIndex joint = *map_->joint_of[index(kFootBones[side])];
+    const double leg_m = map_->leg(static_cast<int>(side)).length_m();
+    const glm::dvec3 hip = hip_in_world(side);
+    const double reach_m =
+        report_.stands[side]
+            ? kMostReach * leg_m
+            : leg_reach_m(glm::distance(hip, place.ankle_in_world), leg_m);
+    const glm::dvec3 ankle = ankle_within(hip, place.ankle_in_world, reach_m);
+    supports_[side]->set_target(
+        glm::mix(world_from_joint_[index(joint)].translation, ankle, share));
+    supports_[side]->set_orientation(glm::normalize(
+        glm::slerp(retarget::rotation_from_t_pose(*map_, world_from_joint_, joint),
+                   place.world_from_t_pose,
+                   share)));
+  }
 }
 
 void CharacterPlayer::ride_floor(double time_s, double step_s) {

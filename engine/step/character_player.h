@@ -125,6 +125,8 @@ class CharacterPlayer {
   [[nodiscard]] const Character& character() const { return *character_; }
   [[nodiscard]] const retarget::BodyMap& map() const { return *map_; }
   [[nodiscard]] const Pose& pose() const { return pose_; }
+  /// Height by which the blend is lifted to the floor.
+  [[nodiscard]] double lift_m() const { return floor_.lift_m(); }
   /// The posture before feet and constraints.
   [[nodiscard]] const Pose& reference() const { return reference_; }
   [[nodiscard]] std::span<const RigidTransform> world_from_joint() const;
@@ -152,6 +154,7 @@ class CharacterPlayer {
   void meet_floor(double step_s);
   void hold_feet(double time_s, double step_s);
   void ride_floor(double time_s, double step_s);
+  void lead_feet(const std::array<FootHold::Place, 2>& places, double share);
   void steer_root(double time_s, double step_s);
   void move_throws(double time_s, double step_s);
   void move_hands(double time_s, double step_s);
