@@ -97,7 +97,7 @@ CharacterPlayer::CharacterPlayer(std::shared_ptr<const MotionBase> base,
 }
 
 std::span<const RigidTransform> CharacterPlayer::world_from_joint() const {
-  if (is_adapted_) return adapter_->world_from_joint();
+  if (is_adapted_) return adapter().world_from_joint();
   return world_from_joint_;
 }
 
@@ -166,7 +166,7 @@ void CharacterPlayer::reach(ReachPlayer reach) {
     throws_[side]->drop(
         time_s_, *reach_handles_[2 * side], *reach_handles_[2 * side + 1]);
   }
-  reaches_[side] = std::move(reach);
+  reaches_[side] = std::make_unique<ReachPlayer>(std::move(reach));
 }
 
 ReachPlayer* CharacterPlayer::reaching(int side) {
@@ -179,7 +179,7 @@ void CharacterPlayer::play_throw(ThrowPlayer made) {
   if (throws_[side])
     throws_[side]->drop(
         time_s_, *reach_handles_[2 * side], *reach_handles_[2 * side + 1]);
-  throws_[side] = std::move(made);
+  throws_[side] = std::make_unique<ThrowPlayer>(std::move(made));
 }
 
 const ThrowPlayer* CharacterPlayer::throwing(int side) const {
@@ -199,7 +199,7 @@ void CharacterPlayer::move_throws(double time_s, double step_s) {
                            blend_,
                            world_from_joint_,
                            shift_,
-                           *adapter_,
+                           adapter(),
                            supports_,
                            *reach_handles_[2 * side],
                            *reach_handles_[2 * side + 1]};
@@ -230,18 +230,35 @@ void CharacterPlayer::move_hands(double time_s, double step_s) {
   }
 }
 
+void CharacterPlayer::join(retarget::Crowd& crowd, std::size_t member) {
+  adapter_.reset();
+  crowd_ = &crowd;
+  member_ = member;
+}
+
 void CharacterPlayer::step(double time_s, double step_s) {
+  if (!prepare_step(time_s, step_s)) return;
+  report_.adapt = adapter().adapt(reference_, time_s, pose_);
+  finish_step();
+}
+
+retarget::CrowdJob CharacterPlayer::adapt_job() {
+  return {member_, &reference_, &pose_, &report_.adapt};
+}
+
+bool CharacterPlayer::prepare_step(double time_s, double step_s) {
   time_s_ = time_s;
-  if (!blend_.step(time_s, step_s)) return;
+  if (!blend_.step(time_s, step_s)) return false;
   steer_root(time_s, step_s);
   report_.transition = blend_.report();
+  retarget::NormalizedPose normalized;
   to_normalized(blend_.posture(),
                 blend_.base().layout(),
                 blend_.root(),
                 map_->leg_length_m,
-                normalized_);
+                normalized);
   retarget::expand(
-      normalized_, character_->skeleton, *map_, world_from_joint_, reference_);
+      normalized, character_->skeleton, *map_, world_from_joint_, reference_);
   const double change = step_s / kLevelFade_s;
   activation_ = std::clamp(
       activation_ + (level_ == DetailLevel::kBlended ? -change : change), 0.0, 1.0);
@@ -252,16 +269,19 @@ void CharacterPlayer::step(double time_s, double step_s) {
     feet_[1].reset();
     floor_.reset();
     report_.stands = {};
-    return;
+    return false;
   }
   meet_floor(step_s);
   // Before the feet, because a throw poses the body at other times.
   move_throws(time_s, step_s);
   hold_feet(time_s, step_s);
   move_hands(time_s, step_s);
-  report_.adapt = adapter_->adapt(reference_, time_s, pose_);
+  return true;
+}
+
+void CharacterPlayer::finish_step() {
   const std::size_t hips = index(map_->hips());
-  shift_.hips_m = adapter_->world_from_joint()[hips].translation -
+  shift_.hips_m = adapter().world_from_joint()[hips].translation -
                   world_from_joint_[hips].translation;
 }
 
