@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/engine.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -13,6 +14,11 @@
 
 namespace marey::engine {
 namespace {
+
+/// Number of characters that are prepared and then adapted together.
+constexpr std::size_t kBlock = 256;
+/// Fewer are not adapted in lanes: most of these would be empty.
+constexpr std::size_t kMinLaneJobs = 6;
 
 std::array<bool, kGroupCount> groups_of(const retarget::BodyMap& map) {
   std::array<bool, kGroupCount> out{};
@@ -74,9 +80,40 @@ Result<CharacterId> Engine::add(CharacterSpec spec) {
   }
   auto player = CharacterPlayer::make(base_, std::move(spec));
   if (!player) return player.error();
-  characters_.push_back(*std::move(player));
+  characters_.push_back(std::make_unique<CharacterPlayer>(*std::move(player)));
+  const Status joined = join_crowd(*characters_.back());
+  if (!joined) {
+    characters_.pop_back();
+    return joined.error();
+  }
   stepped_.push_back(steps_);
+  adapts_.push_back(0);
   return CharacterId{static_cast<int>(characters_.size()) - 1};
+}
+
+Status Engine::join_crowd(CharacterPlayer& player) {
+  for (std::size_t i = 0; i < crowds_.size(); ++i) {
+    if (!crowds_[i]->takes(player.adapter())) continue;
+    auto member = crowds_[i]->add(player.leave_adapter());
+    if (!member) return member.error();
+    player.join(*crowds_[i], *member);
+    crowd_of_.push_back(i);
+    const std::size_t most = options_.threads > 1 ? *member + 1 : kBlock;
+    jobs_[i].reserve(std::min(*member + 1, most));
+    return Done{};
+  }
+  std::vector<retarget::Adapter> first;
+  first.push_back(player.leave_adapter());
+  retarget::CrowdOptions options;
+  options.threads = options_.threads;
+  options.min_lane_jobs = kMinLaneJobs;
+  auto crowd = retarget::Crowd::make(std::move(first), options);
+  if (!crowd) return crowd.error();
+  crowds_.push_back(std::make_unique<retarget::Crowd>(*std::move(crowd)));
+  player.join(*crowds_.back(), 0);
+  crowd_of_.push_back(crowds_.size() - 1);
+  jobs_.emplace_back().reserve(1);
+  return Done{};
 }
 
 Status Engine::check_character(CharacterId character) const {
@@ -163,11 +200,6 @@ void Engine::advance(int steps) {
   MAREY_ASSERT(steps >= 0 && !is_stepping_);
   for (int i = 0; i < steps; ++i) {
     begin_step();
-    if (options_.threads > 1) {
-      in_parallel(characters_.size(),
-                  static_cast<std::size_t>(options_.threads),
-                  [&](std::size_t c) { step(CharacterId{static_cast<int>(c)}); });
-    }
     end_step();
   }
 }
@@ -189,10 +221,40 @@ void Engine::step(CharacterId character) {
 
 void Engine::end_step() {
   MAREY_ASSERT(is_stepping_);
-  for (std::size_t c = 0; c < characters_.size(); ++c) {
-    if (stepped_[c] < steps_) step(CharacterId{static_cast<int>(c)});
+  const std::size_t count = characters_.size();
+  // With one thread in blocks, whose memory stays in the cache between both parts.
+  const std::size_t block = options_.threads > 1 ? count : kBlock;
+  for (std::size_t first = 0; first < count; first += block) {
+    step_block(first, std::min(first + block, count));
   }
   is_stepping_ = false;
+}
+
+void Engine::step_block(std::size_t first, std::size_t end) {
+  const double now_s = time_s();
+  const auto prepare = [&](std::size_t c) {
+    adapts_[c] = 0;
+    if (stepped_[c] == steps_) return;
+    stepped_[c] = steps_;
+    if (characters_[c]->prepare_step(now_s, step_s())) adapts_[c] = 1;
+  };
+  if (options_.threads > 1) {
+    in_parallel(end - first,
+                static_cast<std::size_t>(options_.threads),
+                [&](std::size_t i) { prepare(first + i); });
+  } else {
+    for (std::size_t c = first; c < end; ++c) prepare(c);
+  }
+  for (auto& jobs : jobs_) jobs.clear();
+  for (std::size_t c = first; c < end; ++c) {
+    if (adapts_[c] != 0) jobs_[crowd_of_[c]].push_back(characters_[c]->adapt_job());
+  }
+  for (std::size_t i = 0; i < crowds_.size(); ++i) {
+    if (!jobs_[i].empty()) crowds_[i]->adapt(jobs_[i], now_s);
+  }
+  for (std::size_t c = first; c < end; ++c) {
+    if (adapts_[c] != 0) characters_[c]->finish_step();
+  }
 }
 
 double Engine::time_s() const {
@@ -216,7 +278,7 @@ CharacterPlayer& Engine::player(CharacterId character) {
 
 const CharacterPlayer& Engine::player(CharacterId character) const {
   MAREY_ASSERT(check_character(character).has_value());
-  return characters_[static_cast<std::size_t>(character)];
+  return *characters_[static_cast<std::size_t>(character)];
 }
 
 ActionPhase Engine::phase(CharacterId character, ActionId action) const {

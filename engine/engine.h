@@ -176,13 +176,21 @@ class Engine {
   [[nodiscard]] Result<ActionId> play_family(CharacterId character,
                                              Action action,
                                              const ReachWish& wish);
+  [[nodiscard]] Status join_crowd(CharacterPlayer& player);
+  void step_block(std::size_t first, std::size_t end);
   ActionId add_action(CharacterId character, Action action);
 
   std::shared_ptr<const MotionBase> base_;
   EngineOptions options_;
   /// By clip; nullptr: it cannot be steered.
   std::vector<std::shared_ptr<const ClipTravel>> travels_;
-  std::vector<CharacterPlayer> characters_;
+  std::vector<std::unique_ptr<CharacterPlayer>> characters_;
+  /// Characters of like bodies and constraints are members of one crowd.
+  std::vector<std::unique_ptr<retarget::Crowd>> crowds_;
+  std::vector<std::size_t> crowd_of_;  ///< By character.
+  std::vector<std::vector<retarget::CrowdJob>>
+      jobs_;                           ///< By crowd: of the current block.
+  std::vector<char> adapts_;           ///< By character, in this step.
   std::vector<std::int64_t> stepped_;  ///< By character: number of its last step.
   bool is_stepping_ = false;           ///< Between begin_step() and end_step().
   std::int64_t steps_ = 0;

@@ -137,6 +137,7 @@ class BlendPlayer {
                       double time_s);
   void begin_inertial(Action& action, double time_s);
   void limit_alive(double time_s);
+  void place_warp(Action& action, double time_s);
   void end_finished(double time_s);
   [[nodiscard]] std::size_t alive(std::span<const Action*> out) const;
   [[nodiscard]] bool blend_at(double time_s,
@@ -152,6 +153,9 @@ class BlendPlayer {
   BlendPlayerOptions options_;
   std::array<Action, kMaxActions> actions_{};  ///< Ascending by layer, then by id.
   std::size_t count_ = 0;
+  /// For actions that are alive, and one that begins.
+  using Warps = std::array<PhaseWarp, kMaxAlive + 1>;
+  std::unique_ptr<Warps> warps_ = std::make_unique<Warps>();
   std::array<PerGroup, kMaxActions> weights_{};
 
   bool is_known_ = false;   ///< There is a posture.

@@ -191,9 +191,22 @@ void BlendPlayer::choose_landing(const Action& lead_action,
   delay_s_ = answer.delay_s;
 }
 
+void BlendPlayer::place_warp(Action& action, double time_s) {
+  limit_alive(time_s);
+  for (PhaseWarp& warp : *warps_) {
+    const bool is_taken = std::ranges::any_of(actions(), [&](const Action& other) {
+      return other.is_alive() && other.warp.get() == &warp;
+    });
+    if (is_taken) continue;
+    action.warp.place(&warp);
+    return;
+  }
+}
+
 void BlendPlayer::begin(Action& action, double time_s) {
   report_ = {};
   delay_s_ = 0.0;
+  place_warp(action, time_s);
   const bool moves_legs = action.leg_priority() > 0.0F;
   const bool meets_others = is_known_ && moves_legs;
   bool at_once = action.transition == TransitionKind::kCut ||

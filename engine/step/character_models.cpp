@@ -24,7 +24,7 @@ void CharacterPlayer::reach(ReachPlayer reach) {
     throws_[side]->drop(
         time_s_, *reach_handles_[2 * side], *reach_handles_[2 * side + 1]);
   }
-  reaches_[side] = std::move(reach);
+  reaches_[side] = std::make_unique<ReachPlayer>(std::move(reach));
 }
 
 ReachPlayer* CharacterPlayer::reaching(int side) {
@@ -39,7 +39,7 @@ void CharacterPlayer::play_throw(ThrowPlayer made) {
     throws_[side]->drop(
         time_s_, *reach_handles_[2 * side], *reach_handles_[2 * side + 1]);
   }
-  throws_[side] = std::move(made);
+  throws_[side] = std::make_unique<ThrowPlayer>(std::move(made));
 }
 
 const ThrowPlayer* CharacterPlayer::throwing(int side) const {
@@ -59,7 +59,7 @@ void CharacterPlayer::move_throws(double time_s, double step_s) {
                            blend_,
                            world_from_joint_,
                            shift_,
-                           *adapter_,
+                           adapter(),
                            supports_,
                            *reach_handles_[2 * side],
                            *reach_handles_[2 * side + 1]};
@@ -124,7 +124,7 @@ Result<FollowPlayer> CharacterPlayer::make_follow(ActionId id,
       std::find_if(points_.begin(), points_.end(), [&](const FollowPoint& p) {
         return p.id == wish.constraint;
       });
-  const auto handle = adapter_->constraint(wish.constraint);
+  const auto handle = adapter().constraint(wish.constraint);
   if (point == points_.end() || !handle) {
     return bad_input("follow \"" + wish.constraint + "\"",
                      "the character has no constraint of this id that leads a point to a "

@@ -129,7 +129,7 @@ CharacterPlayer::CharacterPlayer(std::shared_ptr<const MotionBase> base,
 }
 
 std::span<const RigidTransform> CharacterPlayer::world_from_joint() const {
-  if (is_adapted_) return adapter_->world_from_joint();
+  if (is_adapted_) return adapter().world_from_joint();
   return world_from_joint_;
 }
 
@@ -186,14 +186,7 @@ void CharacterPlayer::hold_feet(double time_s, double step_s) {
     places[side] = place;
     report_.stands[side] = feet_[side].holds();
     ankle_xz_m_[side] = {place.ankle_in_world.x, place.ankle_in_world.z};
-    StandingFoot& now = shift_.feet[side];
-    now.stands = report_.stands[side];
-    now.ankle_in_world = glm::mix(reference.ankle_in_world, place.ankle_in_world, share);
-    now.world_from_t_pose = glm::normalize(
-        glm::slerp(reference.world_from_t_pose, place.world_from_t_pose, share));
-    now.from_reference_m = now.ankle_in_world - reference.ankle_in_world;
-    supports_[side]->set_target(now.ankle_in_world);
-    supports_[side]->set_orientation(now.world_from_t_pose);
+    shift_.feet[side].stands = report_.stands[side];
     if (report_.stands[side]) {
       away_m += ankle_xz_m_[side] -
                 glm::dvec2(reference.ankle_in_world.x, reference.ankle_in_world.z);
@@ -238,12 +231,16 @@ void CharacterPlayer::lead_feet(const std::array<FootHold::Place, 2>& places,
             ? kMostReach * leg_m
             : leg_reach_m(glm::distance(hip, place.ankle_in_world), leg_m);
     const glm::dvec3 ankle = ankle_within(hip, place.ankle_in_world, reach_m);
-    supports_[side]->set_target(
-        glm::mix(world_from_joint_[index(joint)].translation, ankle, share));
-    supports_[side]->set_orientation(glm::normalize(
+    StandingFoot& now = shift_.feet[side];
+    const glm::dvec3& of_blend = world_from_joint_[index(joint)].translation;
+    now.ankle_in_world = glm::mix(of_blend, ankle, share);
+    now.world_from_t_pose = glm::normalize(
         glm::slerp(retarget::rotation_from_t_pose(*map_, world_from_joint_, joint),
                    place.world_from_t_pose,
-                   share)));
+                   share));
+    now.from_reference_m = now.ankle_in_world - of_blend;
+    supports_[side]->set_target(now.ankle_in_world);
+    supports_[side]->set_orientation(now.world_from_t_pose);
   }
 }
 
@@ -272,18 +269,35 @@ void CharacterPlayer::ride_floor(double time_s, double step_s) {
   }
 }
 
+void CharacterPlayer::join(retarget::Crowd& crowd, std::size_t member) {
+  adapter_.reset();
+  crowd_ = &crowd;
+  member_ = member;
+}
+
 void CharacterPlayer::step(double time_s, double step_s) {
+  if (!prepare_step(time_s, step_s)) return;
+  report_.adapt = adapter().adapt(reference_, time_s, pose_);
+  finish_step();
+}
+
+retarget::CrowdJob CharacterPlayer::adapt_job() {
+  return {member_, &reference_, &pose_, &report_.adapt};
+}
+
+bool CharacterPlayer::prepare_step(double time_s, double step_s) {
   time_s_ = time_s;
-  if (!blend_.step(time_s, step_s)) return;
+  if (!blend_.step(time_s, step_s)) return false;
   steer_root(time_s, step_s);
   report_.transition = blend_.report();
+  retarget::NormalizedPose normalized;
   to_normalized(blend_.posture(),
                 blend_.base().layout(),
                 blend_.root(),
                 map_->leg_length_m,
-                normalized_);
+                normalized);
   retarget::expand(
-      normalized_, character_->skeleton, *map_, world_from_joint_, reference_);
+      normalized, character_->skeleton, *map_, world_from_joint_, reference_);
   const double change = step_s / kLevelFade_s;
   activation_ = std::clamp(
       activation_ + (level_ == DetailLevel::kBlended ? -change : change), 0.0, 1.0);
@@ -295,7 +309,7 @@ void CharacterPlayer::step(double time_s, double step_s) {
     floor_.reset();
     report_.stands = {};
     keep_shown();
-    return;
+    return false;
   }
   meet_floor(step_s);
   // Before the feet, because a throw poses the body at other times.
@@ -305,9 +319,12 @@ void CharacterPlayer::step(double time_s, double step_s) {
   move_hands(time_s, step_s);
   move_follows(time_s, step_s);
   clip_constraints_.step(time_s, map_->leg_length_m, blend_);
-  report_.adapt = adapter_->adapt(reference_, time_s, pose_);
+  return true;
+}
+
+void CharacterPlayer::finish_step() {
   const std::size_t hips = index(map_->hips());
-  shift_.hips_m = adapter_->world_from_joint()[hips].translation -
+  shift_.hips_m = adapter().world_from_joint()[hips].translation -
                   world_from_joint_[hips].translation;
   keep_shown();
 }

@@ -32,6 +32,7 @@
 #include "core/pose.h"
 #include "core/transform.h"
 #include "retarget/adapt/adapter.h"
+#include "retarget/adapt/crowd.h"
 #include "retarget/body/body_map.h"
 
 namespace marey::engine {
@@ -86,9 +87,27 @@ class CharacterPlayer {
 
   /// Computes the posture at time_s, step_s after the last one.
   void step(double time_s, double step_s);
+  /// The parts of step(): prepares the posture and the targets of the constraints. True:
+  /// the caller adapts adapt_job() at time_s next, and then calls finish_step(). False:
+  /// the step is complete.
+  [[nodiscard]] bool prepare_step(double time_s, double step_s);
+  /// Precondition: the character is a member of a crowd.
+  [[nodiscard]] retarget::CrowdJob adapt_job();
+  void finish_step();
+
+  /// Moves the adapter out, to become a member of a crowd; join() follows.
+  [[nodiscard]] retarget::Adapter leave_adapter() { return std::move(*adapter_); }
+  /// Uses this member of a crowd, which was the character's adapter, from now on. The
+  /// crowd must outlive the character. Handles of constraints stay valid.
+  void join(retarget::Crowd& crowd, std::size_t member);
+  [[nodiscard]] retarget::Adapter& adapter() const {
+    return crowd_ == nullptr ? *adapter_ : (*crowd_)[member_];
+  }
 
   /// Leads an action to a goal, or a hand to a target, instead of an earlier one.
-  void steer(SteerPlayer steer) { steer_ = std::move(steer); }
+  void steer(SteerPlayer steer) {
+    steer_ = std::make_unique<SteerPlayer>(std::move(steer));
+  }
   void reach(ReachPlayer reach);
   [[nodiscard]] SteerPlayer* steering() { return steer_ ? &*steer_ : nullptr; }
   /// nullptr: that hand (0 left, 1 right) does not reach.
@@ -133,12 +152,12 @@ class CharacterPlayer {
   [[nodiscard]] const CharacterReport& report() const { return report_; }
   /// Returns the handle of a constraint of the spec; nullopt: the id is unknown.
   [[nodiscard]] std::optional<retarget::Adapter::Handle> constraint(std::string_view id) {
-    return adapter_->constraint(id);
+    return adapter().constraint(id);
   }
   /// Picks up or puts down a load of the character. No load is carried at first. False:
   /// it has no load of this name.
   bool carry(std::string_view load, bool carried) {
-    return adapter_->carry(load, carried);
+    return adapter().carry(load, carried);
   }
   /// Changes the level: over 0.2 s from and to kBlended. kKinetic needs a spec of
   /// kKinetic.
@@ -168,13 +187,15 @@ class CharacterPlayer {
   BlendPlayer blend_;
   FootHoldOptions foot_options_;
   DetailLevel level_ = DetailLevel::kKinematic;
-  double activation_ = 1.0;  ///< For supports, before smoothing.
-  std::unique_ptr<retarget::Adapter> adapter_;
+  double activation_ = 1.0;                     ///< For supports, before smoothing.
+  std::unique_ptr<retarget::Adapter> adapter_;  ///< nullptr: it is in the crowd.
+  retarget::Crowd* crowd_ = nullptr;
+  std::size_t member_ = 0;
   std::array<std::optional<retarget::Adapter::Handle>, 2> supports_{};
   /// By hand: the point, then the rotation.
   std::array<std::optional<retarget::Adapter::Handle>, 4> reach_handles_{};
-  std::array<std::optional<ReachPlayer>, 2> reaches_{};
-  std::array<std::optional<ThrowPlayer>, 2> throws_{};
+  std::array<std::unique_ptr<ReachPlayer>, 2> reaches_{};
+  std::array<std::unique_ptr<ThrowPlayer>, 2> throws_{};
   std::vector<FollowPoint> points_;  ///< Points that may follow.
   std::vector<FollowPlayer> follows_;
   ClipConstraints clip_constraints_;
@@ -184,7 +205,7 @@ class CharacterPlayer {
     std::shared_ptr<const JumpBody> body;
   };
   std::vector<PreparedJump> jumps_;
-  std::optional<SteerPlayer> steer_;
+  std::unique_ptr<SteerPlayer> steer_;
   BodyShift shift_;                           ///< After the last step.
   std::vector<RigidTransform> shown_joints_;  ///< After the last step, for follows.
   double time_s_ = 0.0;
@@ -195,7 +216,6 @@ class CharacterPlayer {
   RootPull pull_;
   std::array<glm::dvec2, 2> ankle_xz_m_{};     ///< As the feet stood in the last step.
   std::array<std::array<bool, 2>, 2> bore_{};  ///< [foot][heel, ball], with hysteresis.
-  retarget::NormalizedPose normalized_;
   std::vector<RigidTransform> world_from_joint_;
   Pose reference_;
   Pose pose_;

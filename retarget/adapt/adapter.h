@@ -93,6 +93,11 @@ class Adapter {
   /// allocates. Precondition: in range; the adapter is not a member of a crowd.
   void set_options(const AdaptOptions& options);
 
+  /// Switches balance off, or on again with the mode of the options that the adapter was
+  /// made or last set with. Keeps the plan, and so allocates nothing; permitted for
+  /// members of a crowd. Precondition: the options have balance.
+  void use_balance(bool balance);
+
   /// Adapts one posture. Precondition: `reference` is a posture of the character's
   /// skeleton, finite, with unit rotations. `out` is resized to the number of joints, so
   /// it allocates at most once.
