@@ -16,7 +16,7 @@ constexpr double kEntryStep_s = 1.0 / 60.0;
 constexpr double kDelayStep_s = 0.04;
 constexpr std::size_t kMaxEntries = 240;
 constexpr double kSoon_s = 0.1;
-constexpr double kDifference_s = 0.004;
+constexpr double kSlope_s = 0.004;
 constexpr double kFreeShare = 0.3;
 constexpr double kMovesOn_s = 0.1;
 constexpr double kOppositeCost_m_s = 1.0;
@@ -50,7 +50,7 @@ bool are_opposite(const std::array<bool, 2>& a, const std::array<bool, 2>& b) {
 ClipFeet clip_feet(const Rig& rig, const MotionClip& clip, double source_s, double rate) {
   ClipFeet out;
   out.ankle_m = ankles_m(rig, clip, source_s);
-  const double later_s = source_s + kDifference_s;
+  const double later_s = source_s + kSlope_s;
   const auto later = ankles_m(rig, clip, later_s);
   const RootPlace moves = relative(path_at(clip, source_s), path_at(clip, later_s));
   const double c = std::cos(moves.heading_rad);
@@ -60,7 +60,7 @@ ClipFeet clip_feet(const Rig& rig, const MotionClip& clip, double source_s, doub
     const glm::dvec3 at(rig.leg_length_m * moves.x_m + c * p.x + s * p.z,
                         p.y,
                         rig.leg_length_m * moves.z_m + c * p.z - s * p.x);
-    out.velocity_m_s[side] = (at - out.ankle_m[side]) * (rate / kDifference_s);
+    out.velocity_m_s[side] = (at - out.ankle_m[side]) * (rate / kSlope_s);
   }
   const unsigned now = bearing_at(clip, source_s);
   out.bears_now = feet_of(now);
