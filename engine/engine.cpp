@@ -25,6 +25,16 @@ std::array<bool, kGroupCount> groups_of(const retarget::BodyMap& map) {
   return out;
 }
 
+// Live postures may be ahead of the engine by so much.
+constexpr double kMaxAhead_s = 0.1;
+
+Error no_room(const std::string& clip) {
+  return bad_input(
+      "action \"" + clip + "\"",
+      "the character has " + std::to_string(kMaxActions) + " actions already",
+      "stop some of them first");
+}
+
 }  // namespace
 
 Engine::Engine(std::shared_ptr<const MotionBase> base, const EngineOptions& options)
@@ -74,12 +84,7 @@ Result<Action> Engine::checked(CharacterId character, const ActionWish& wish) co
   const CharacterPlayer& who = player(character);
   auto action = check_wish(wish, *base_, who.blend().actions(), groups_of(who.map()));
   if (!action) return action.error();
-  if (!who.blend().has_room()) {
-    return bad_input(
-        "action \"" + wish.clip + "\"",
-        "the character has " + std::to_string(kMaxActions) + " actions already",
-        "stop some of them first");
-  }
+  if (!who.blend().has_room()) return no_room(wish.clip);
   return action;
 }
 
@@ -93,6 +98,35 @@ Result<ActionId> Engine::play(CharacterId character, const ActionWish& wish) {
   auto action = checked(character, wish);
   if (!action) return action.error();
   return add_action(character, *std::move(action));
+}
+
+Result<ActionId> Engine::play(CharacterId character, const LiveWish& wish) {
+  if (const auto known = check_character(character); !known) return known.error();
+  if (const Status good = check_live_options(wish.options); !good) return good.error();
+  CharacterPlayer& who = player(character);
+  auto action =
+      check_live_wish(wish.action, *base_, who.blend().actions(), groups_of(who.map()));
+  if (!action) return action.error();
+  if (!who.blend().has_room()) return no_room(wish.action.clip);
+  action->id = ActionId{next_action_++};
+  who.blend().add_live(*action, wish.options);
+  return action->id;
+}
+
+Status Engine::push(CharacterId character, const LivePosture& posture) {
+  if (const auto known = check_character(character); !known) return known.error();
+  LivePlayer* live = player(character).blend().live();
+  if (live == nullptr) {
+    return bad_input("character " + std::to_string(static_cast<int>(character)),
+                     "it has no live source",
+                     "play one with a LiveWish first");
+  }
+  if (posture.time_s > time_s() + step_s() + kMaxAhead_s) {
+    return bad_input("live posture",
+                     "its time is later than the next step by more than 0.1 s",
+                     "give times on the engine's clock");
+  }
+  return live->push(posture);
 }
 
 Result<ActionId> Engine::play(CharacterId character, const SteerWish& wish) {
@@ -260,6 +294,13 @@ void Engine::end_step() {
 
 double Engine::time_s() const {
   return static_cast<double>(steps_) / options_.step_hz;
+}
+
+std::int64_t Engine::steps_before(CharacterId character) const {
+  MAREY_ASSERT(check_character(character).has_value());
+  const bool is_due =
+      is_stepping_ && stepped_[static_cast<std::size_t>(character)] < steps_;
+  return is_due ? steps_ - 1 : steps_;
 }
 
 const Pose& Engine::pose(CharacterId character) const {

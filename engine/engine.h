@@ -58,6 +58,14 @@ class Engine {
   /// exist, is over, or has no end; an event that its clip does not have; more than
   /// kMaxActions actions.
   [[nodiscard]] Result<ActionId> play(CharacterId character, const ActionWish& wish);
+  /// Requests to play what a performer does; it begins with the second posture. It
+  /// replaces an earlier live source. Errors: those of an action without a clip, and of
+  /// check_live_options().
+  [[nodiscard]] Result<ActionId> play(CharacterId character, const LiveWish& wish);
+  /// Gives the live source the performer's posture at one instant. Allocates nothing.
+  /// Errors: there is no live source; those of LiveSource::push(); a time later than that
+  /// of the next step by more than 0.1 s.
+  [[nodiscard]] Status push(CharacterId character, const LivePosture& posture);
   /// Requests a walk to a goal. It replaces an earlier one. Errors: those of an action
   /// and of SteerPlayer::make().
   [[nodiscard]] Result<ActionId> play(CharacterId character, const SteerWish& wish);
@@ -107,6 +115,12 @@ class Engine {
 
   [[nodiscard]] double time_s() const;
   [[nodiscard]] double step_s() const { return 1.0 / options_.step_hz; }
+  [[nodiscard]] double step_hz() const { return options_.step_hz; }
+  /// Number of steps, with the one that is under way.
+  [[nodiscard]] std::int64_t steps() const { return steps_; }
+  /// Number of steps before the one with which a request to this character would begin
+  /// now. Precondition: the character exists.
+  [[nodiscard]] std::int64_t steps_before(CharacterId character) const;
   [[nodiscard]] std::size_t size() const { return characters_.size(); }
   /// Precondition (also of the functions below): the character exists.
   [[nodiscard]] const Pose& pose(CharacterId character) const;

@@ -15,6 +15,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/character.h"
+#include "core/constraint.h"
 #include "core/engine/scene.h"
 #include "core/floor.h"
 #include "core/pose.h"
@@ -29,6 +30,7 @@ struct StageBody {
   retarget::BodyMap map{};
   engine::RootPlace start{};
   double stature_m = 0.0;
+  ConstraintSet constraints{};  ///< That always apply.
 };
 
 /// One body in all steps; every vector has one entry per step.

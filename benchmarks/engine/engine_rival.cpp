@@ -3,13 +3,12 @@
 #include "benchmarks/engine/engine_rival.h"
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <utility>
 
 #include "engine/clips/make_clip.h"
 #include "engine/engine.h"
 
+#include "benchmarks/parts/taken.h"
 #include "retarget/character/make_character.h"
 #include "retarget/contacts/detect_contacts.h"
 
@@ -19,15 +18,6 @@ namespace {
 using engine::Action;
 using engine::ActionWish;
 using engine::Engine;
-
-template <class T>
-T taken(Result<T> result) {
-  if (!result) {
-    std::fprintf(stderr, "%s\n", result.error().message().c_str());
-    std::exit(1);
-  }
-  return *std::move(result);
-}
 
 engine::ClipSource source_of(const TransitionClip& clip, const std::string& name) {
   engine::ClipSource source;

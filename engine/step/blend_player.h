@@ -15,6 +15,7 @@
 #include "engine/clips/rig.h"
 #include "engine/clips/sample_clip.h"
 #include "engine/feet/root_anchor.h"
+#include "engine/step/live_player.h"
 #include "engine/transition/inertial_offset.h"
 
 namespace marey::engine {
@@ -55,6 +56,13 @@ class BlendPlayer {
     return {actions_.data(), count_};
   }
 
+  /// Adds the action of a live source, instead of an earlier one.
+  /// Precondition: that of add().
+  void add_live(const Action& action, const LiveOptions& options);
+  /// The live source; nullptr: none was added, or its action is over.
+  [[nodiscard]] LivePlayer* live();
+  [[nodiscard]] const LivePlayer* live() const;
+
   /// Moves on from time_s - step_s to time_s. False: nothing was ever played, and there
   /// is no posture.
   bool step(double time_s, double step_s);
@@ -81,7 +89,12 @@ class BlendPlayer {
   [[nodiscard]] const PerFootPart& bears() const { return bears_; }
   [[nodiscard]] const TransitionReport& report() const { return report_; }
 
-  /// The action with the greatest weight on the legs; nullptr: none.
+  /// Share with which feet, and not the blend alone, move the root: 1 in transitions of
+  /// the legs, 0 without.
+  [[nodiscard]] double anchored() const;
+
+  /// The action with the greatest weight on the legs; nullptr: none, or a live source,
+  /// which has no clip.
   [[nodiscard]] const Action* lead() const;
   /// Weight of each action on each group in the last step, in the order of actions().
   [[nodiscard]] const PerGroup& weights(std::size_t action) const {
@@ -94,6 +107,14 @@ class BlendPlayer {
   struct Blend;
   [[nodiscard]] Action* find_mutable(ActionId id);
   void begin_waiting(double time_s, double step_s);
+  void step_live(double time_s, double step_s);
+  [[nodiscard]] bool enter_in_step(Action& action, double time_s) const;
+  /// Samples an action; returns its root's step from `from_s` on. [legs]
+  RootPlace sample(const Action& action,
+                   double time_s,
+                   double from_s,
+                   BlendPosture& out) const;
+  [[nodiscard]] unsigned bearing_bits(const Action& action, double time_s) const;
   [[nodiscard]] bool may_begin(const Action& action, double time_s, double step_s) const;
   void begin(Action& action, double time_s);
   void retire_replaced(const Action& by, double time_s, bool at_once);
@@ -135,6 +156,7 @@ class BlendPlayer {
   double transition_end_s_ = -1.0;
   PerFootPart bears_{};
   TransitionReport report_;
+  std::unique_ptr<LivePlayer> live_;
 };
 
 }  // namespace marey::engine

@@ -36,6 +36,7 @@ EntryRange entry_range(const Action& action, const MotionClip& clip) {
 }  // namespace
 
 bool BlendPlayer::may_begin(const Action& action, double time_s, double step_s) const {
+  if (action.is_live && !live_->source().has_data()) return false;
   if (action.start == ActionStart::Kind::kNow) return true;
   if (action.start == ActionStart::Kind::kAtTime) return time_s >= action.start_s;
   const Action* other = find(action.after);
@@ -97,6 +98,8 @@ void BlendPlayer::retire_replaced(const Action& by, double time_s, bool at_once)
 }
 
 void BlendPlayer::begin_inertial(Action& action, double time_s) {
+  action.fade_in_s = 0.0;
+  if (action.is_live) return;
   unsigned bearing = 0;
   for (std::size_t part = 0; part < bears_.size(); ++part) {
     if (bears_[part] > 0.5) bearing |= 1U << part;
@@ -115,14 +118,13 @@ void BlendPlayer::begin_inertial(Action& action, double time_s) {
                          clip.loops && !action.entry_s);
   }
   action.warp.start(time_s, entry, action.rate);
-  action.fade_in_s = 0.0;
 }
 
 bool BlendPlayer::synchronise(Action& action, double time_s, bool always) {
   const Action* lead_action = nullptr;
   for (std::size_t i = 0; i < count_; ++i) {
     const Action& other = actions_[i];
-    if (&other == &action || !other.is_alive()) continue;
+    if (&other == &action || !other.is_alive() || other.is_live) continue;
     const float most = std::max(other.leg_priority(), action.leg_priority());
     if (other.leg_priority() <= 0.05F * most) continue;
     if (lead_action == nullptr || other.leg_priority() > lead_action->leg_priority()) {
@@ -173,7 +175,10 @@ void BlendPlayer::begin(Action& action, double time_s) {
   if (at_once) {
     if (action.transition == TransitionKind::kInertial) begin_inertial(action, time_s);
     action.fade_in_s = 0.0;
-  } else if (meets_others && action.transition != TransitionKind::kCrossfade) {
+  } else if (enter_in_step(action, time_s)) {
+    report_.is_synchronised = true;
+  } else if (meets_others && !action.is_live &&
+             action.transition != TransitionKind::kCrossfade) {
     report_.is_synchronised =
         base_->has_contacts(action.clip) &&
         synchronise(action, time_s, action.transition == TransitionKind::kSynchronised);

@@ -144,6 +144,8 @@ void CharacterPlayer::meet_floor(double step_s) {
 
 void CharacterPlayer::hold_feet(double time_s, double step_s) {
   const double share = smooth_step(activation_);
+  glm::dvec2 away_m(0.0);
+  double standing = 0.0;
   for (std::size_t side = 0; side < 2; ++side) {
     const FootReference reference = foot_reference(side, time_s);
     const FootHold::Place place = feet_[side].step(
@@ -158,7 +160,19 @@ void CharacterPlayer::hold_feet(double time_s, double step_s) {
     now.from_reference_m = now.ankle_in_world - reference.ankle_in_world;
     supports_[side]->set_target(now.ankle_in_world);
     supports_[side]->set_orientation(now.world_from_t_pose);
+    if (report_.stands[side]) {
+      away_m += ankle_xz_m_[side] -
+                glm::dvec2(reference.ankle_in_world.x, reference.ankle_in_world.z);
+      standing += 1.0;
+    }
   }
+  // Acts on the next step.
+  const double pulled = share * blend_.anchored() / std::max(1.0, standing);
+  const glm::dvec2 pull_m = pull_.step(pulled * away_m, step_s);
+  RootPlace root = blend_.root();
+  root.x_m += pull_m.x;
+  root.z_m += pull_m.y;
+  blend_.place(root);
 }
 
 void CharacterPlayer::ride_floor(double time_s, double step_s) {

@@ -14,6 +14,7 @@
 #include "engine/feet/floor_level.h"
 #include "engine/feet/floor_ride.h"
 #include "engine/feet/foot_hold.h"
+#include "engine/feet/root_pull.h"
 #include "engine/step/blend_player.h"
 #include "engine/step/reach_player.h"
 #include "engine/step/rehearsal.h"
@@ -148,6 +149,7 @@ class CharacterPlayer {
   FloorLevel floor_;
   std::shared_ptr<const Floor> ground_;
   FloorRide ride_;
+  RootPull pull_;
   std::array<glm::dvec2, 2> ankle_xz_m_{};     ///< As the feet stood in the last step.
   std::array<std::array<bool, 2>, 2> bore_{};  ///< [foot][heel, ball], with hysteresis.
   retarget::NormalizedPose normalized_;
