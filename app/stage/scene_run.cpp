@@ -44,9 +44,9 @@ engine::CharacterSpec spec_of(const Scene& scene,
                               const SceneBody& line,
                               const StageBody& body,
                               std::size_t place,
-                              std::shared_ptr<const Floor> floor) {
+                              const std::shared_ptr<const Floor>& floor) {
   engine::CharacterSpec spec;
-  spec.floor = std::move(floor);
+  spec.floor = floor;
   spec.character = body.character;
   spec.map = body.map;
   spec.start = body.start;
@@ -179,7 +179,7 @@ Result<SceneRun> SceneRun::make(SceneRunInput input) {
   auto script = ScriptPlayer::make(in.scene, in.bodies, *in.base, in.trials);
   if (!script) return script.error();
   state->script = *std::move(script);
-  std::shared_ptr<const Floor> floor;
+  std::shared_ptr<const Floor> floor;  // nullptr: level, at height 0.
   if (!in.floor.parts.empty() || in.floor.base_height_m != 0.0) {
     floor = std::make_shared<const Floor>(in.floor);
   }
