@@ -43,8 +43,10 @@ bool uses_hand_models(const SceneAction& action) {
 engine::CharacterSpec spec_of(const Scene& scene,
                               const SceneBody& line,
                               const StageBody& body,
-                              std::size_t place) {
+                              std::size_t place,
+                              const std::shared_ptr<const Floor>& floor) {
   engine::CharacterSpec spec;
+  spec.floor = floor;
   spec.character = body.character;
   spec.map = body.map;
   spec.start = body.start;
@@ -152,7 +154,7 @@ void SceneRun::State::keep_step() {
     track.poses.push_back(player.pose());
     track.references.push_back(player.reference());
     track.stands.push_back(player.report().stands);
-    track.floor_moved_m.push_back({});
+    track.floor_moved_m.push_back(player.report().floor_moved_m);
   }
   for (StageTargetTrack& track : record.targets) {
     const auto use = std::find_if(uses.begin(), uses.end(), [&](const TargetUse& u) {
@@ -177,9 +179,12 @@ Result<SceneRun> SceneRun::make(SceneRunInput input) {
   auto script = ScriptPlayer::make(in.scene, in.bodies, *in.base, in.trials);
   if (!script) return script.error();
   state->script = *std::move(script);
+  // nullptr: level, at height 0.
+  const auto floor =
+      in.floor.parts.empty() ? nullptr : std::make_shared<const Floor>(in.floor);
   for (std::size_t i = 0; i < in.bodies.size(); ++i) {
     const SceneBody& line = state->lines[i];
-    const auto id = state->engine.add(spec_of(in.scene, line, in.bodies[i], i));
+    const auto id = state->engine.add(spec_of(in.scene, line, in.bodies[i], i, floor));
     if (!id) return id.error();
     for (const Load& load : in.bodies[i].character.loads) {
       (void)state->engine.player(*id).carry(load.name, true);

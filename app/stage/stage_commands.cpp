@@ -8,13 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "app/edit/edit_run.h"
+#include "app/engine/open_base.h"
 #include "app/shell/findings.h"
 #include "app/shell/option_checks.h"
 #include "app/stage/figures/measure_figures.h"
 #include "app/stage/stage_results.h"
 #include "core/base/format_text.h"
 #include "recordings/body/floor_file.h"
-#include "recordings/moves/read_moves.h"
 #include "recordings/scene/read_scene.h"
 #include "recordings/scene/read_trials.h"
 
@@ -39,11 +39,9 @@ Result<OpenedScene> open_scene(const StageArguments& args) {
   auto scene = recordings::read_scene(args.scene);
   if (!scene) return scene.error();
   out.input.scene = *std::move(scene);
-  if (args.seconds) out.input.scene.duration_s = *args.seconds;
+  if (args.seconds && !args.live) out.input.scene.duration_s = *args.seconds;
   if (args.budget) out.input.scene.budget_units = args.budget;
-  auto moves = recordings::read_moves(out.input.scene.base);
-  if (!moves) return moves.error();
-  auto base = engine::MotionBase::make(*std::move(moves));
+  auto base = open_base(out.input.scene.base);
   if (!base) return base.error();
   out.input.base = *std::move(base);
   if (!out.input.scene.floor.empty()) {
@@ -62,6 +60,11 @@ Result<OpenedScene> open_scene(const StageArguments& args) {
 Exit run_stage(const StageArguments& args, Console& console) {
   auto opened = open_scene(args);
   if (!opened) return console.fail(opened.error());
+  if (args.live) {
+    StageLiveOptions options = args.live_options;
+    options.seconds = args.seconds;
+    return run_stage_live(std::move(opened->input), options, console);
+  }
   auto run = SceneRun::make(std::move(opened->input));
   if (!run) return console.fail(run.error());
   const Progress progress = console.stage("scene");
@@ -94,12 +97,21 @@ void add_stage_command(CLI::App& app,
                        std::function<Exit(Console&)>& chosen) {
   CLI::App* command = app.add_subcommand("stage", "Play a scene of several characters");
   command->add_option("SCENE", args.scene, "Scene (.toml)")->required();
-  command->add_option("-o,--out", args.out, "Folder for the results");
-  command->add_option("--seconds", args.seconds, "Duration instead of the scene's [s]")
+  CLI::Option* out = command->add_option("-o,--out", args.out, "Folder for the results");
+  command
+      ->add_option(
+          "--seconds",
+          args.seconds,
+          "Duration instead of the scene's; with --live: stop after this time [s]")
       ->check(between(0.01, 1e5));
   command->add_option("--budget", args.budget, "Cost of a step instead of the scene's")
       ->check(between(0.0, 1e9));
-  command->add_flag("--json", args.json, "Prints stage.json on standard output");
+  CLI::Option* json =
+      command->add_flag("--json", args.json, "Prints stage.json on standard output");
+  command->add_flag("--live", args.live, "In real time, on a page in a browser")
+      ->excludes(out)
+      ->excludes(json);
+  add_stage_live_options(*command, args.live_options);
   command->callback(
       [&] { chosen = [&args](Console& console) { return run_stage(args, console); }; });
 }

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/shell/console.h"
+#include "app/stage/live/stage_live.h"
 #include "app/stage/scene_run.h"
 #include "app/stage/stage_bodies.h"
 #include "core/base/result.h"
@@ -19,10 +20,13 @@ namespace marey::app {
 /// Arguments of `marey stage`.
 struct StageArguments {
   std::filesystem::path scene;
-  std::filesystem::path out;        ///< Folder; empty: nothing is written.
-  std::optional<double> seconds{};  ///< Instead of the scene's duration.
-  std::optional<double> budget{};   ///< Instead of the scene's budget.
+  std::filesystem::path out;  ///< Folder; empty: nothing is written.
+  /// Instead of the scene's duration; with `live`: the program stops then.
+  std::optional<double> seconds{};
+  std::optional<double> budget{};  ///< Instead of the scene's budget.
   bool json = false;
+  bool live = false;  ///< On the page and by VMC, in real time.
+  StageLiveOptions live_options{};
 };
 
 /// A scene with everything that it names.
