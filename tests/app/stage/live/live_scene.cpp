@@ -4,11 +4,13 @@
 
 #include <utility>
 
+#include "engine/clips/make_clip.h"
 #include <gtest/gtest.h>
 
 #include "app/stage/stage_bodies.h"
 #include "recordings/scene/read_scene.h"
-#include "tests/engine/made_base.h"
+#include "retarget/contacts/detect_contacts.h"
+#include "tests/support/simulation/synthetic_walk.h"
 
 namespace marey::app {
 namespace {
@@ -64,6 +66,21 @@ body = "crowd"
 max_mm = 0.1
 )";
 
+/// A base of one clip: a person stands still for two seconds.
+std::shared_ptr<const engine::MotionBase> base_of_still() {
+  engine::ClipSource still;
+  still.name = "still";
+  still.motion = testing::synthetic_walk(1, 60.0).motion;
+  still.motion.poses.resize(120, still.motion.poses.front());
+  still.map = *retarget::map_body(still.motion.skeleton);
+  still.contacts = retarget::detect_contacts(still.motion, still.map);
+  auto moves = engine::make_moves({&still, 1});
+  EXPECT_TRUE(moves) << moves.error().message();
+  auto base = engine::MotionBase::make(*std::move(moves));
+  EXPECT_TRUE(base) << base.error().message();
+  return *std::move(base);
+}
+
 }  // namespace
 
 SceneRunInput live_scene() {
@@ -74,7 +91,7 @@ SceneRunInput live_scene() {
   auto cast = read_stage_cast(input.scene);
   EXPECT_TRUE(cast) << cast.error().message();
   input.bodies = std::move(cast->bodies);
-  input.base = engine::made_base();
+  input.base = base_of_still();
   return input;
 }
 
