@@ -123,6 +123,9 @@ struct SceneRun::State {
         dependencies(scene_dependencies(input.scene)) {}
 
   void order_bodies(double time_s);
+  [[nodiscard]] bool is_awaited(std::size_t body) const {
+    return !rounds.empty() && rounds[body] < rounds[order.back()];
+  }
   void keep_step();
 
   SceneRunInput input;
@@ -179,9 +182,10 @@ Result<SceneRun> SceneRun::make(SceneRunInput input) {
   auto script = ScriptPlayer::make(in.scene, in.bodies, *in.base, in.trials);
   if (!script) return script.error();
   state->script = *std::move(script);
-  // nullptr: level, at height 0.
-  const auto floor =
-      in.floor.parts.empty() ? nullptr : std::make_shared<const Floor>(in.floor);
+  std::shared_ptr<const Floor> floor;  // nullptr: level, at height 0.
+  if (!in.floor.parts.empty() || in.floor.base_height_m != 0.0) {
+    floor = std::make_shared<const Floor>(in.floor);
+  }
   for (std::size_t i = 0; i < in.bodies.size(); ++i) {
     const SceneBody& line = state->lines[i];
     const auto id = state->engine.add(spec_of(in.scene, line, in.bodies[i], i, floor));
@@ -219,7 +223,8 @@ void SceneRun::advance() {
   s.engine.begin_step();
   for (const std::size_t body : s.order) {
     s.script->aim(body, now_s, step_s, s.places, s.engine);
-    s.engine.step(id_of(body));
+    // Nobody waits for the bodies of the last round: end_step() solves them together.
+    if (s.is_awaited(body)) s.engine.step(id_of(body));
   }
   s.engine.end_step();
   s.script->end_step(now_s, s.engine);
