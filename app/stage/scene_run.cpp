@@ -283,6 +283,25 @@ const StageRecord& SceneRun::record() const {
   return s.record;
 }
 
+double SceneRun::recorded_from_s() const {
+  return state_->record.begin_s;
+}
+
+void SceneRun::forget_steps() {
+  State& s = *state_;
+  MAREY_ASSERT(s.input.records);
+  for (StageTrack& track : s.record.tracks) {
+    track.poses.clear();
+    track.references.clear();
+    track.stands.clear();
+    track.floor_moved_m.clear();
+  }
+  for (StageTargetTrack& track : s.record.targets) track.p_in_world.clear();
+  s.record.begin_s = time_s();
+  s.spent_ms = 0.0;
+  s.steps = 0;
+}
+
 const std::vector<Error>& SceneRun::problems() const {
   return state_->script->problems();
 }

@@ -17,8 +17,8 @@ int most_steps_at_once(double step_hz) {
 }  // namespace
 
 Result<StageSession> StageSession::make(SceneRunInput input, Timestamp now) {
-  // A run without an end must not fill the memory.
-  input.records = false;
+  // For the figures; LiveFigures empties the record again.
+  input.records = true;
   auto run = SceneRun::make(input);
   if (!run) return run.error();
   return StageSession(std::move(input), *std::move(run), now);
@@ -28,7 +28,6 @@ StageSession::StageSession(SceneRunInput input, SceneRun run, Timestamp now)
     : input_(std::move(input)),
       run_(std::move(run)),
       targets_(run_),
-      figures_(run_),
       clock_(run_.scene().step_hz, most_steps_at_once(run_.scene().step_hz)) {
   clock_.start(now);
 }

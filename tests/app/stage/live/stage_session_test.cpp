@@ -125,21 +125,33 @@ TEST(StageSession, OffersTheTargetsOfTheScene) {
   EXPECT_FALSE(session.handles()[2].draggable);
 }
 
-TEST(StageSession, MeasuresDistancesAndLeavesOtherFiguresOut) {
+TEST(StageSession, MeasuresTheFiguresOfTheSceneSinceTheLastReport) {
   StageSession session = session_at(0s);
   Timestamp now = 0s;
   play(session, now, 1s);
-  (void)session.figures().report();
+  (void)session.report_figures();
   play(session, now, 100ms);
-  const auto figures = session.figures().report();
+  EXPECT_EQ(session.run().record().step_count(), 6U);
+  const auto figures = session.report_figures();
   ASSERT_EQ(figures.size(), 2U);
   EXPECT_EQ(figures[0].name, "wrist_error leftHand");
   ASSERT_TRUE(figures[0].value);
   EXPECT_LT(*figures[0].value, 1.0);
   EXPECT_EQ(figures[0].passed, true);
   EXPECT_EQ(figures[1].name, "feet_slide");
-  EXPECT_FALSE(figures[1].value);
-  EXPECT_FALSE(figures[1].passed);
+  ASSERT_TRUE(figures[1].value);
+  EXPECT_LT(*figures[1].value, 0.1);
+  // Nothing new is measured: the values stay.
+  EXPECT_EQ(session.report_figures()[0].value, figures[0].value);
+}
+
+TEST(StageSession, EmptiesTheRecordIfNobodyAsksForReports) {
+  StageSession session = session_at(0s);
+  Timestamp now = 0s;
+  for (int i = 0; i < 30; ++i) {
+    play(session, now, 100ms);
+    EXPECT_LE(session.run().record().step_count(), 61U);
+  }
 }
 
 /// A clock that sleeps up to `late` longer than asked.
