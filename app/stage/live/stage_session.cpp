@@ -29,6 +29,7 @@ StageSession::StageSession(SceneRunInput input, SceneRun run, Timestamp now)
       run_(std::move(run)),
       targets_(run_),
       clock_(run_.scene().step_hz, most_steps_at_once(run_.scene().step_hz)) {
+  run_.forget_steps();
   clock_.start(now);
 }
 
@@ -41,6 +42,7 @@ Status StageSession::carry_out(live::RunAction action, Timestamp now) {
     auto run = SceneRun::make(input_);
     if (!run) return run.error();
     run_ = *std::move(run);
+    run_.forget_steps();
     targets_.reset();
     figures_.reset();
   } else if (is_playing_) {
