@@ -17,6 +17,7 @@
 #include "app/convert/mannequin_commands.h"
 #include "app/edit/edit_commands.h"
 #include "app/engine/base_commands.h"
+#include "app/engine/blend_commands.h"
 #include "app/inspect/doctor_commands.h"
 #include "app/inspect/inspect_commands.h"
 #include "app/jump/jump_commands.h"
@@ -39,6 +40,7 @@
 #include "app/shell/sample_session.h"
 #include "app/shell/stop_signal.h"
 #include "app/shell/usage_error.h"
+#include "app/stage/stage_commands.h"
 #include "app/shell/version.h"
 #include "app/view/view_commands.h"
 #include "core/base/printable.h"
@@ -59,6 +61,8 @@ struct Arguments {
   JumpArguments jump;
   LibraryArguments library;
   BaseArguments base;
+  BlendArguments blend;
+  StageArguments stage;
   ConvertArguments convert;
   MannequinArguments mannequin;
   PrintArguments print;
@@ -119,6 +123,8 @@ int run(int argc, char** argv) {
   add_jump_command(app, args.jump, chosen);
   add_library_command(app, args.library, chosen);
   add_base_command(app, args.base, chosen);
+  add_blend_command(app, args.blend, chosen);
+  add_stage_command(app, args.stage, chosen);
   add_convert_command(app, args.convert, chosen);
   add_mannequin_command(app, args.mannequin, chosen);
   add_print_commands(app, args.print, chosen);

@@ -31,10 +31,28 @@ std::array<bool, kGroupCount> groups_of(const retarget::BodyMap& map) {
   return out;
 }
 
+// Live postures may be ahead of the engine by so much.
+constexpr double kMaxAhead_s = 0.1;
+
+Error no_room(const std::string& clip) {
+  return bad_input(
+      "action \"" + clip + "\"",
+      "the character has " + std::to_string(kMaxActions) + " actions already",
+      "stop some of them first");
+}
+
 }  // namespace
 
 Engine::Engine(std::shared_ptr<const MotionBase> base, const EngineOptions& options)
-    : base_(std::move(base)), options_(options) {}
+    : base_(std::move(base)), options_(options) {
+  for (const MotionClip& clip : base_->clips()) {
+    std::shared_ptr<const ClipTravel> travel;
+    if (auto found = travel_of_clip(clip)) {
+      travel = std::make_shared<const ClipTravel>(*std::move(found));
+    }
+    travels_.push_back(std::move(travel));
+  }
+}
 
 Result<Engine> Engine::make(std::shared_ptr<const MotionBase> base,
                             const EngineOptions& options) {
@@ -109,14 +127,10 @@ Status Engine::check_character(CharacterId character) const {
 Result<Action> Engine::checked(CharacterId character, const ActionWish& wish) const {
   if (const auto known = check_character(character); !known) return known.error();
   const CharacterPlayer& who = player(character);
-  auto action = check_wish(wish, *base_, who.blend().actions(), groups_of(who.map()));
+  auto action =
+      check_wish(wish, who.blend().base(), who.blend().actions(), groups_of(who.map()));
   if (!action) return action.error();
-  if (!who.blend().has_room()) {
-    return bad_input(
-        "action \"" + wish.clip + "\"",
-        "the character has " + std::to_string(kMaxActions) + " actions already",
-        "stop some of them first");
-  }
+  if (!who.blend().has_room()) return no_room(wish.clip);
   return action;
 }
 
@@ -132,122 +146,42 @@ Result<ActionId> Engine::play(CharacterId character, const ActionWish& wish) {
   return add_action(character, *std::move(action));
 }
 
-Result<ActionId> Engine::play(CharacterId character, const SteerWish& wish) {
-  auto action = checked(character, wish.action);
-  if (!action) return action.error();
-  auto steer = SteerPlayer::make(*base_, ActionId{next_action_}, action->clip, wish);
-  if (!steer) return steer.error();
-  player(character).steer(*std::move(steer));
-  return add_action(character, *std::move(action));
-}
-
-Status Engine::aim(CharacterId character, glm::dvec2 goal_xz_m) {
+Result<ActionId> Engine::play(CharacterId character, const LiveWish& wish) {
   if (const auto known = check_character(character); !known) return known.error();
-  if (SteerPlayer* steer = player(character).steering()) return steer->aim(goal_xz_m);
-  return bad_input("character " + std::to_string(static_cast<int>(character)),
-                   "it does not walk to a goal",
-                   "play a walk with a goal first");
-}
-
-Result<ActionId> Engine::play(CharacterId character, const ReachWish& wish) {
-  auto action = checked(character, wish.action);
+  if (const Status good = check_live_options(wish.options); !good) return good.error();
+  CharacterPlayer& who = player(character);
+  auto action = check_live_wish(
+      wish.action, who.blend().base(), who.blend().actions(), groups_of(who.map()));
   if (!action) return action.error();
-  auto reach = made_reach(character, *action, wish);
-  if (!reach) return reach.error();
-  player(character).reach(*std::move(reach));
-  return add_action(character, *std::move(action));
+  if (!who.blend().has_room()) return no_room(wish.action.clip);
+  action->id = ActionId{next_action_++};
+  who.blend().add_live(*action, wish.options);
+  return action->id;
 }
 
-Status Engine::check_hand(CharacterId character,
-                          const std::string& clip,
-                          int side) const {
-  if (!player(character).can_reach()) {
-    return bad_input("action \"" + clip + "\"",
-                     "the character was added without constraints for its hands",
-                     "add it with CharacterSpec::reaches");
-  }
-  if (side == 0 || side == 1) return Done{};
-  return bad_input("action \"" + clip + "\"",
-                   "there is no hand " + std::to_string(side),
-                   "give 0 for the left hand or 1 for the right one");
-}
-
-Result<ThrowPlayer> Engine::made_throw(CharacterId character,
-                                       Action action,
-                                       const ThrowWish& wish) const {
-  if (const Status good = check_hand(character, wish.action.clip, wish.side); !good) {
-    return good.error();
-  }
-  const CharacterPlayer& who = player(character);
-  action.id = ActionId{next_action_};
-  return ThrowPlayer::make(*base_, action, wish, who.character().skeleton, who.map());
-}
-
-Result<ActionId> Engine::play(CharacterId character, const ThrowWish& wish) {
-  auto action = checked(character, wish.action);
-  if (!action) return action.error();
-  auto made = made_throw(character, *action, wish);
-  if (!made) return made.error();
-  player(character).play_throw(*std::move(made));
-  return add_action(character, *std::move(action));
-}
-
-Status Engine::aim_ball(CharacterId character, int side, const glm::dvec3& p_in_world) {
+Status Engine::push(CharacterId character, const LivePosture& posture) {
   if (const auto known = check_character(character); !known) return known.error();
-  if (side == 0 || side == 1) {
-    if (ThrowPlayer* made = player(character).throwing(side)) {
-      return made->aim(p_in_world);
-    }
+  LivePlayer* live = player(character).blend().live();
+  if (live == nullptr) {
+    return bad_input("character " + std::to_string(static_cast<int>(character)),
+                     "it has no live source",
+                     "play one with a LiveWish first");
   }
-  return bad_input("character " + std::to_string(static_cast<int>(character)),
-                   "this hand does not throw",
-                   "play a throw with it first");
-}
-
-Result<ThrowFeasibility> Engine::ask(CharacterId character, const ThrowWish& wish) const {
-  auto action = checked(character, wish.action);
-  if (!action) return action.error();
-  auto made = made_throw(character, *action, wish);
-  if (!made) return made.error();
-  return made->ask(player(character).blend().root(), *action, step_s());
-}
-
-Result<ReachPlayer> Engine::made_reach(CharacterId character,
-                                       const Action& action,
-                                       const ReachWish& wish) const {
-  if (const Status good = check_hand(character, wish.action.clip, wish.side); !good) {
-    return good.error();
+  if (posture.time_s > time_s() + step_s() + kMaxAhead_s) {
+    return bad_input("live posture",
+                     "its time is later than the next step by more than 0.1 s",
+                     "give times on the engine's clock");
   }
-  const CharacterPlayer& who = player(character);
-  return ReachPlayer::make(*base_,
-                           ActionId{next_action_},
-                           action.clip,
-                           wish,
-                           who.character().skeleton,
-                           who.map());
-}
-
-Status Engine::aim(CharacterId character, int side, const ReachTarget& target) {
-  if (const auto known = check_character(character); !known) return known.error();
-  if (side == 0 || side == 1) {
-    if (ReachPlayer* reach = player(character).reaching(side)) return reach->aim(target);
-  }
-  return bad_input("character " + std::to_string(static_cast<int>(character)),
-                   "this hand does not reach",
-                   "play a reach with it first");
-}
-
-Result<ReachFeasibility> Engine::ask(CharacterId character, const ReachWish& wish) const {
-  auto action = checked(character, wish.action);
-  if (!action) return action.error();
-  auto reach = made_reach(character, *action, wish);
-  if (!reach) return reach.error();
-  return reach->ask(player(character).blend(), *action);
+  return live->push(posture);
 }
 
 Status Engine::stop(CharacterId character, ActionId action) {
   if (const auto known = check_character(character); !known) return known.error();
   if (player(character).blend().stop(action)) return Done{};
+  if (FollowPlayer* follow = player(character).following(action)) {
+    follow->stop();
+    return Done{};
+  }
   return bad_input("action " + std::to_string(number(action)),
                    "it is over, or was never requested",
                    "use an id that play() returned");
@@ -256,6 +190,9 @@ Status Engine::stop(CharacterId character, ActionId action) {
 Status Engine::stop_all(CharacterId character, std::optional<int> layer) {
   if (const auto known = check_character(character); !known) return known.error();
   player(character).blend().stop_layer(layer);
+  if (!layer) {
+    for (FollowPlayer& follow : player(character).follows()) follow.stop();
+  }
   return Done{};
 }
 
@@ -324,6 +261,13 @@ double Engine::time_s() const {
   return static_cast<double>(steps_) / options_.step_hz;
 }
 
+std::int64_t Engine::steps_before(CharacterId character) const {
+  MAREY_ASSERT(check_character(character).has_value());
+  const bool is_due =
+      is_stepping_ && stepped_[static_cast<std::size_t>(character)] < steps_;
+  return is_due ? steps_ - 1 : steps_;
+}
+
 const Pose& Engine::pose(CharacterId character) const {
   return player(character).pose();
 }
@@ -338,6 +282,9 @@ const CharacterPlayer& Engine::player(CharacterId character) const {
 }
 
 ActionPhase Engine::phase(CharacterId character, ActionId action) const {
+  if (const FollowPlayer* follow = player(character).following(action)) {
+    return follow->is_stopping() ? ActionPhase::kFadingOut : ActionPhase::kHolding;
+  }
   const Action* found = player(character).blend().find(action);
   return found == nullptr ? ActionPhase::kDone : found->phase;
 }

@@ -14,7 +14,7 @@ set(retarget_LAYERS
   adapt/algebra adapt/plan adapt/kernel adapt)
 set(dynamics_LAYERS push flight momentum balance jumps)
 set(edit_LAYERS signal state balance find filter splice jump ops markers .)
-set(engine_LAYERS sync blend clips transition feet models detail actions step .)
+set(engine_LAYERS sync blend clips transition feet models detail actions sources step record .)
 set(library_LAYERS clips features quality search duplicates segments labels export)
 set(recordings_LAYERS
   base body edit takes motion gltf markers print session library moves scene)

@@ -3,7 +3,6 @@
 #include "app/engine/base_commands.h"
 
 #include <cstdio>
-#include <memory>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -13,11 +12,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/engine/base_json.h"
+#include "app/engine/open_base.h"
 #include "app/library/find/clip_table.h"
 #include "app/shell/option_checks.h"
 #include "core/base/format_text.h"
 #include "core/base/in_quotes.h"
-#include "recordings/moves/read_moves.h"
 #include "recordings/moves/write_moves.h"
 
 namespace marey::app {
@@ -26,25 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kBaseEnding = ".marey";
-
-using OpenedBase = Result<std::shared_ptr<const engine::MotionBase>>;
-
-/// Returns the error with the base's file before its place.
-Error in_base(Error error, const fs::path& file) {
-  const bool names_file = error.where.starts_with(file.string());
-  if (!names_file) {
-    error.where = file.string() + (error.where.empty() ? "" : ": " + error.where);
-  }
-  return error;
-}
-
-OpenedBase open_base(const fs::path& file) {
-  auto moves = recordings::read_moves(file);
-  if (!moves) return moves.error();
-  auto base = engine::MotionBase::make(*std::move(moves));
-  if (!base) return in_base(base.error(), file);
-  return base;
-}
 
 /// Checks the result's file before the work.
 Status check_base_out(const BaseArguments& args) {

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/inspect/inspect_body.h"
+#include "app/inspect/inspect_engine.h"
 #include "app/inspect/inspect_inputs.h"
 #include "app/inspect/inspect_jumps.h"
 #include "app/inspect/inspect_markers.h"
@@ -63,6 +64,7 @@ Result<Json> inspect_file(const std::filesystem::path& file,
   if (named == "joints.csv" || named == "segments.csv") return inspect_table(file);
   if (extension == ".json") return inspect_report(file);
   if (is_body_file(file)) return inspect_body(file, options, console);
+  if (extension == ".marey") return inspect_base(file);
   if (extension == ".c3d" || extension == ".trc") return inspect_markers(file);
   if (extension == ".mot" || extension == ".sto") return inspect_angles(file);
   if (extension == ".asf") return inspect_acclaim(file);
@@ -126,7 +128,7 @@ Exit run_inspect(const std::filesystem::path& file,
   if (json) {
     std::printf("%s\n", text(*found, 2).c_str());
   } else {
-    print(jumps_as_lines(bones_as_lines(*found)), 0);
+    print(engine_as_lines(jumps_as_lines(bones_as_lines(*found))), 0);
   }
   return Exit::kOk;
 }

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/inspect/inspect_engine.h"
 #include "app/shell/lens_words.h"
 #include "app/shell/program_name.h"
 #include "recordings/base/atomic_file.h"
@@ -20,8 +21,6 @@
 #include "recordings/motion/asf.h"
 #include "recordings/motion/mot.h"
 #include "recordings/motion/motion_tables.h"
-#include "recordings/scene/read_scene.h"
-#include "recordings/scene/read_trials.h"
 #include "recordings/session/calibration_file.h"
 #include "recordings/session/detections_file.h"
 #include "recordings/session/plan_file.h"
@@ -122,32 +121,6 @@ Result<Json> inspect_recipe(const fs::path& file) {
               {"name", recipe->name},
               {"sources", sources},
               {"operations", ops}};
-}
-
-Result<Json> inspect_scene(const fs::path& file) {
-  const auto scene = recordings::read_scene(file);
-  if (!scene) return scene.error();
-  Json bodies = Json::array();
-  for (const SceneBody& body : scene_bodies(*scene)) bodies.push_back(body.id);
-  Json targets = Json::array();
-  for (const SceneTarget& target : scene->targets) targets.push_back(target.id);
-  return Json{{"kind", "scene"},
-              {"name", scene->name},
-              {"duration_s", scene->duration_s},
-              {"base", scene->base},
-              {"bodies", bodies},
-              {"targets", targets},
-              {"actions", scene->script.size()},
-              {"figures", scene->figures.size()}};
-}
-
-Result<Json> inspect_trials(const fs::path& file) {
-  const auto list = recordings::read_trials(file);
-  if (!list) return list.error();
-  return Json{{"kind", "trials"},
-              {"name", list->name},
-              {"trials", list->trials.size()},
-              {"throws", trial_order(*list).size()}};
 }
 
 Result<Json> inspect_marker_map(const fs::path& file) {

@@ -3,15 +3,17 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
 #include "app/stage/stage_record.h"
 #include "core/base/result.h"
+#include "core/engine/throw_trials.h"
 #include "core/pose.h"
 
 namespace marey::app {
@@ -22,6 +24,7 @@ struct SceneRunInput {
   Floor floor{};
   std::shared_ptr<const engine::MotionBase> base{};
   std::vector<StageBody> bodies{};  ///< One for each of scene_bodies(), in its order.
+  std::map<std::string, TrialList> trials{};  ///< By SceneThrow::trials.
   int threads = 1;
   bool records = true;  ///< Keep all steps for record().
 };

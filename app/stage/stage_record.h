@@ -15,6 +15,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/character.h"
+#include "core/constraint.h"
 #include "core/engine/scene.h"
 #include "core/floor.h"
 #include "core/pose.h"
@@ -29,12 +30,17 @@ struct StageBody {
   retarget::BodyMap map{};
   engine::RootPlace start{};
   double stature_m = 0.0;
+  ConstraintSet constraints{};  ///< That always apply.
 };
 
-/// One body after a step.
-struct StageStep {
-  Pose pose{};
-  std::array<bool, 2> stands{};  ///< Left, right: the foot is held on the floor.
+/// One body in all steps; every vector has one entry per step.
+struct StageTrack {
+  std::vector<Pose> poses{};
+  /// The postures before feet, constraints and balance, as the floor carries them.
+  std::vector<Pose> references{};
+  std::vector<std::array<bool, 2>> stands{};  ///< Left, right: held on the floor.
+  /// Displacement of the floor under each foot since the start. [m]
+  std::vector<std::array<glm::dvec3, 2>> floor_moved_m{};
 };
 
 /// Positions of a target for one body that uses it, by step.
@@ -82,14 +88,14 @@ struct StageRecord {
   Floor floor{};  ///< Without parts: level, at height 0.
   std::shared_ptr<const engine::MotionBase> base{};
   std::vector<StageBody> bodies{};
-  std::vector<std::vector<StageStep>> steps{};  ///< [body][step]
+  std::vector<StageTrack> tracks{};  ///< One for each body.
   std::vector<StageTargetTrack> targets{};
   std::vector<StageActionRun> actions{};
   std::vector<StageThrow> throws{};
   double mean_step_ms = 0.0;  ///< By the clock.
 
   [[nodiscard]] std::size_t step_count() const {
-    return steps.empty() ? 0 : steps.front().size();
+    return tracks.empty() ? 0 : tracks.front().poses.size();
   }
   [[nodiscard]] double time_s(std::size_t step) const {
     return static_cast<double>(step + 1) / scene.step_hz;

@@ -3,13 +3,12 @@
 #include "benchmarks/engine/engine_rival.h"
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <utility>
 
 #include "engine/clips/make_clip.h"
 #include "engine/engine.h"
 
+#include "benchmarks/parts/taken.h"
 #include "retarget/character/make_character.h"
 #include "retarget/contacts/detect_contacts.h"
 
@@ -19,15 +18,6 @@ namespace {
 using engine::Action;
 using engine::ActionWish;
 using engine::Engine;
-
-template <class T>
-T taken(Result<T> result) {
-  if (!result) {
-    std::fprintf(stderr, "%s\n", result.error().message().c_str());
-    std::exit(1);
-  }
-  return *std::move(result);
-}
 
 engine::ClipSource source_of(const TransitionClip& clip, const std::string& name) {
   engine::ClipSource source;
@@ -104,10 +94,14 @@ class SwitchPlayer {
         frame.arrived = 1.0 - (1.0 + y * since) * std::exp(-y * since);
       }
       result.frames.push_back(frame);
-      const auto hips = player.map().hips();
-      std::vector<RigidTransform> world =
-          world_from_joints(character_.skeleton, player.reference());
-      result.blend_hips_in_world.push_back(world[index(hips)].translation);
+      // The blend on the floor, before feet lower or move the hips.
+      glm::dvec3 hips_in_world = player.reference().root_in_world;
+      if (way.level != engine::DetailLevel::kBlended) {
+        hips_in_world.y = player.lift_m() +
+                          player.map().leg_length_m *
+                              static_cast<double>(player.blend().posture().height_legs);
+      }
+      result.blend_hips_in_world.push_back(hips_in_world);
     }
     return result;
   }

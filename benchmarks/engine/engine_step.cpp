@@ -26,6 +26,7 @@
 
 #include "benchmarks/engine/transition_clips.h"
 #include "benchmarks/parts/result_table.h"
+#include "benchmarks/parts/taken.h"
 #include "core/base/quantile.h"
 #include "retarget/character/make_character.h"
 #include "retarget/contacts/detect_contacts.h"
@@ -43,15 +44,6 @@ double thread_us() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return 1e6 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_nsec);
-}
-
-template <class T>
-T taken(Result<T> result) {
-  if (!result) {
-    std::fprintf(stderr, "%s\n", result.error().message().c_str());
-    std::exit(1);
-  }
-  return *std::move(result);
 }
 
 std::shared_ptr<const engine::MotionBase> base_of(const TransitionClips& clips) {

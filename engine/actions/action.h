@@ -110,9 +110,12 @@ class ActionWarp {
 /// An action of a character.
 struct Action {
   ActionId id{};
-  std::size_t clip = 0;
+  std::size_t clip = 0;  ///< Not used by a live source.
+  bool is_live = false;  ///< Plays a live source, not a clip.
   int layer = 0;
   PerGroup priority{};
+  PerGroup source_share =
+      whole_body();  ///< Factor on the priority; a live source sets it.
   float weight = 1.0F;
   double fade_in_s = 0.0;
   double fade_out_s = 0.0;

@@ -22,9 +22,10 @@ void action_weights(std::span<const Action* const> actions,
     for (std::size_t i = begin; i < end; ++i) {
       const float fade = static_cast<float>(actions[i]->fade(time_s));
       for (std::size_t g = 0; g < kGroupCount; ++g) {
-        out[i][g] = actions[i]->weight * actions[i]->priority[g] * fade;
+        const float share = actions[i]->source_share[g] * fade;
+        out[i][g] = actions[i]->weight * actions[i]->priority[g] * share;
         sum[g] += out[i][g];
-        cover[g] += std::min(1.0F, actions[i]->priority[g]) * fade;
+        cover[g] += std::min(1.0F, actions[i]->priority[g]) * share;
       }
     }
     for (std::size_t g = 0; g < kGroupCount; ++g) {

@@ -93,7 +93,9 @@ std::optional<Error> check_start(const ActionWish& wish,
                       "it would start after action " + id + ", which repeats without end",
                       "start it at an event of that action, or stop that action first");
   }
-  for (const Annotation& note : base.clip(other->clip).notes) {
+  const std::span<const Annotation> notes =
+      other->is_live ? std::span<const Annotation>() : base.clip(other->clip).notes;
+  for (const Annotation& note : notes) {
     if (note.text != wish.start.event) continue;
     action.start_s = note.start_s;
     return std::nullopt;
@@ -148,6 +150,30 @@ Result<Action> check_wish(const ActionWish& wish,
         wish, "its entry is outside of the clip", "give a time within the clip");
   }
   if (const auto error = check_start(wish, base, others, action)) return *error;
+  return action;
+}
+
+Result<Action> check_live_wish(const ActionWish& wish,
+                               const MotionBase& base,
+                               std::span<const Action> others,
+                               const std::array<bool, kGroupCount>& has_group) {
+  if (!wish.clip.empty()) {
+    return wish_error(wish, "a live source plays no clip", "leave the clip empty");
+  }
+  ActionWish named = wish;
+  named.clip = "live";
+  if (const auto error = check_numbers(named, has_group)) return *error;
+  Action action;
+  action.is_live = true;
+  action.loops = true;  // It has no end.
+  action.priority = wish.priority;
+  action.weight = static_cast<float>(wish.weight);
+  action.layer = wish.layer.value_or(1);
+  action.fade_in_s = wish.fade_in_s;
+  action.fade_out_s = wish.fade_out_s;
+  action.replaces = wish.replaces;
+  action.transition = wish.transition;
+  if (const auto error = check_start(named, base, others, action)) return *error;
   return action;
 }
 

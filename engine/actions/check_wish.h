@@ -19,4 +19,11 @@ namespace marey::engine {
                                         std::span<const Action> others,
                                         const std::array<bool, kGroupCount>& has_group);
 
+/// The same for the action of a live source. Its clip is empty.
+[[nodiscard]] Result<Action> check_live_wish(
+    const ActionWish& wish,
+    const MotionBase& base,
+    std::span<const Action> others,
+    const std::array<bool, kGroupCount>& has_group);
+
 }  // namespace marey::engine

@@ -114,8 +114,17 @@ void FootHold::change(Mode mode,
   since_change_s_ = 0.0;
 }
 
-void FootHold::fade_turn(double step_s) {
-  fade(turn_, {}, fade_s_ - since_change_s_, step_s);
+void FootHold::fade_turn(const FootReference& reference, double step_s) {
+  if (mode_ != Mode::kFree || !reference.landing || !reference.landing->is_flat ||
+      slipped_) {
+    fade(turn_, {}, fade_s_ - since_change_s_, step_s);
+    return;
+  }
+  const FootReference::Landing& landing = *reference.landing;
+  Motion2<glm::dvec3> end;
+  end.value = landing.turn_rad;
+  end.rate = -landing.spin_rad_s;
+  fade(turn_, end, landing.in_s + step_s, step_s);
 }
 
 glm::dvec3 FootHold::free_ankle(const FootReference& reference,
@@ -127,6 +136,7 @@ glm::dvec3 FootHold::free_ankle(const FootReference& reference,
   }
   const FootReference::Landing& landing = *reference.landing;
   Motion2<glm::dvec3> end;
+  end.value = landing.shift_in_world;
   end.value.y = foot.ankle_height_m - landing.ankle_in_world.y;
   end.rate = -landing.velocity_m_s;
   // The landing is this long after the present step; the state is one step old.
@@ -176,7 +186,7 @@ FootHold::Place FootHold::step(const FootReference& reference,
     reference_motion_.value = reference.ankle_in_world;
   }
   if (mode != mode_) change(mode, foot, options);
-  fade_turn(step_s);
+  fade_turn(reference, step_s);
   Place place;
   place.world_from_t_pose = glm::normalize(
       rotation_by(turn_.value) *

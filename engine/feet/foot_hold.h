@@ -28,12 +28,19 @@ struct FootReference {
   glm::dquat world_from_t_pose{1.0, 0.0, 0.0, 0.0};
   bool heel_bears = false;
   bool ball_bears = false;
-  /// Time until it bears, and the ankle's expected place and velocity then; nullopt: not
-  /// within FootHoldOptions::land_s.
+  /// The next landing, if it is within FootHoldOptions::land_s.
   struct Landing {
-    double in_s = 0.0;
+    double in_s = 0.0;  ///< Time until it.
+    /// Ankle of the reference then, and its velocity. Only the height is used.
     glm::dvec3 ankle_in_world{0.0};
     glm::dvec3 velocity_m_s{0.0};
+    /// Place in which the foot will stand, from the reference then: horizontal.
+    glm::dvec3 shift_in_world{0.0};
+    bool is_flat = false;  ///< Heel and ball bear: the foot stops turning.
+    /// Rotation in which it will stand from that of the reference then, as a rotation
+    /// vector in the world, and the reference's angular velocity.
+    glm::dvec3 turn_rad{0.0};
+    glm::dvec3 spin_rad_s{0.0};
   };
   std::optional<Landing> landing{};
 };
@@ -73,7 +80,7 @@ class FootHold {
              const glm::dvec3& velocity_m_s,
              double height_m,
              const FootHoldOptions& options);
-  void fade_turn(double step_s);
+  void fade_turn(const FootReference& reference, double step_s);
   [[nodiscard]] glm::dvec3 free_ankle(const FootReference& reference,
                                       const retarget::FootMap& foot,
                                       double step_s);

@@ -17,18 +17,6 @@ namespace {
 constexpr std::size_t kRootGroup = static_cast<std::size_t>(EditGroup::kRoot);
 constexpr std::size_t kLeftLegGroup = static_cast<std::size_t>(EditGroup::kLeftLeg);
 
-// Displacement of a clip's root between two of its times; both are moved to the first
-// cycles, so that the path of a loop is never summed over many.
-RootPlace root_step(const MotionClip& clip, double from_s, double to_s) {
-  if (clip.loops) {
-    const double duration = clip.duration_s();
-    const double base = std::floor(from_s / duration) * duration;
-    from_s -= base;
-    to_s -= base;
-  }
-  return relative(path_at(clip, from_s), path_at(clip, to_s));
-}
-
 // One step of x(t) = (x + (v + x y) t) e^(-y t).
 void decay(double& value, double& rate, double half_life_s, double step_s) {
   const double y = 2.0 * 0.6931471805599453 / half_life_s;
@@ -119,7 +107,7 @@ const Action* BlendPlayer::lead() const {
       best = &actions_[i];
     }
   }
-  return best;
+  return best != nullptr && best->is_live ? nullptr : best;
 }
 
 std::size_t BlendPlayer::alive(std::span<const Action*> out) const {
@@ -203,17 +191,14 @@ bool BlendPlayer::blend_at(double time_s,
   out.bears = {};
   std::array<double, 3> total{};
   for (std::size_t i = 0; i < count; ++i) {
-    const MotionClip& clip = base_->clip(list[i]->clip);
-    const double source_s = list[i]->warp.source_s(time_s);
-    sample_clip(clip, source_s, postures[i]);
+    const RootPlace moves = sample(*list[i], time_s, from_s, postures[i]);
     sources[i] = &postures[i];
     const double share = static_cast<double>(weights[i][kRootGroup]);
     total[2] += share;
-    const RootPlace moves = root_step(clip, list[i]->warp.source_s(from_s), source_s);
     out.root_step.x_m += share * moves.x_m * rig_.leg_length_m;
     out.root_step.z_m += share * moves.z_m * rig_.leg_length_m;
     out.root_step.heading_rad += share * moves.heading_rad;
-    const unsigned bits = bearing_at(clip, source_s);
+    const unsigned bits = bearing_bits(*list[i], time_s);
     for (std::size_t part = 0; part < 4; ++part) {
       const double leg = static_cast<double>(weights[i][kLeftLegGroup + part / 2]);
       if (part % 2 == 0) total[part / 2] += leg;
@@ -274,8 +259,7 @@ PerFootPart BlendPlayer::predict_bears(double time_s) const {
   PerFootPart bears{};
   std::array<double, 2> total{};
   for (std::size_t i = 0; i < count; ++i) {
-    const unsigned bits =
-        bearing_at(base_->clip(list[i]->clip), list[i]->warp.source_s(time_s));
+    const unsigned bits = bearing_bits(*list[i], time_s);
     for (std::size_t part = 0; part < 4; ++part) {
       const double leg = static_cast<double>(weights[i][kLeftLegGroup + part / 2]);
       if (part % 2 == 0) total[part / 2] += leg;
@@ -323,6 +307,10 @@ void BlendPlayer::move_root(const Blend& blend, double time_s, double step_s) {
   feet_ = now;
 }
 
+double BlendPlayer::anchored() const {
+  return options_.anchors_root ? smooth_step(anchor_strength_) : 0.0;
+}
+
 void BlendPlayer::turn_about(double x_m, double z_m, double turn_rad) {
   const double c = std::cos(turn_rad);
   const double s = std::sin(turn_rad);
@@ -334,6 +322,7 @@ void BlendPlayer::turn_about(double x_m, double z_m, double turn_rad) {
 bool BlendPlayer::step(double time_s, double step_s) {
   is_broken_ = false;
   cuts_ = false;
+  step_live(time_s, step_s);
   begin_waiting(time_s, step_s);
   limit_alive(time_s);
   Blend blend;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/actions/action.h"
@@ -15,6 +16,7 @@
 #include "engine/clips/rig.h"
 #include "engine/clips/sample_clip.h"
 #include "engine/feet/root_anchor.h"
+#include "engine/step/live_player.h"
 #include "engine/transition/inertial_offset.h"
 
 namespace marey::engine {
@@ -31,6 +33,8 @@ struct BlendPlayerOptions {
   double half_life_s = 0.1;  ///< For inertial offsets.
   double max_incompatible_s = 0.10;
   double anchor_fade_s = 0.05;
+  /// A fade may begin later if it has 0.9 of its weight within this time.
+  double settle_s = 0.35;
   bool anchors_root = true;
 };
 
@@ -54,6 +58,13 @@ class BlendPlayer {
   [[nodiscard]] std::span<const Action> actions() const {
     return {actions_.data(), count_};
   }
+
+  /// Adds the action of a live source, instead of an earlier one.
+  /// Precondition: that of add().
+  void add_live(const Action& action, const LiveOptions& options);
+  /// The live source; nullptr: none was added, or its action is over.
+  [[nodiscard]] LivePlayer* live();
+  [[nodiscard]] const LivePlayer* live() const;
 
   /// Moves on from time_s - step_s to time_s. False: nothing was ever played, and there
   /// is no posture.
@@ -81,23 +92,49 @@ class BlendPlayer {
   [[nodiscard]] const PerFootPart& bears() const { return bears_; }
   [[nodiscard]] const TransitionReport& report() const { return report_; }
 
-  /// The action with the greatest weight on the legs; nullptr: none.
+  /// Share with which feet, and not the blend alone, move the root: 1 in transitions of
+  /// the legs, 0 without.
+  [[nodiscard]] double anchored() const;
+
+  /// The action with the greatest weight on the legs; nullptr: none, or a live source,
+  /// which has no clip.
   [[nodiscard]] const Action* lead() const;
   /// Weight of each action on each group in the last step, in the order of actions().
   [[nodiscard]] const PerGroup& weights(std::size_t action) const {
     return weights_[action];
   }
   [[nodiscard]] const MotionBase& base() const { return *base_; }
+  /// Replaces the base by one with the same clips, and others that no action plays.
+  void set_base(std::shared_ptr<const MotionBase> base) { base_ = std::move(base); }
   [[nodiscard]] const Rig& rig() const { return rig_; }
 
  private:
   struct Blend;
   [[nodiscard]] Action* find_mutable(ActionId id);
   void begin_waiting(double time_s, double step_s);
+  void step_live(double time_s, double step_s);
+  [[nodiscard]] bool enter_in_step(Action& action, double time_s) const;
+  /// Samples an action; returns its root's step from `from_s` on. [legs]
+  RootPlace sample(const Action& action,
+                   double time_s,
+                   double from_s,
+                   BlendPosture& out) const;
+  [[nodiscard]] unsigned bearing_bits(const Action& action, double time_s) const;
   [[nodiscard]] bool may_begin(const Action& action, double time_s, double step_s) const;
   void begin(Action& action, double time_s);
   void retire_replaced(const Action& by, double time_s, bool at_once);
   [[nodiscard]] bool synchronise(Action& action, double time_s, bool always);
+  /// Times of a clip at which an action may enter: the middle and half of the width.
+  struct EntryRange {
+    double middle_s = 0.0;
+    double half_s = 0.0;
+  };
+  [[nodiscard]] static EntryRange entry_range(const Action& action,
+                                              const MotionClip& clip);
+  void choose_landing(const Action& lead_action,
+                      Action& action,
+                      const EntryRange& range,
+                      double time_s);
   void begin_inertial(Action& action, double time_s);
   void limit_alive(double time_s);
   void place_warp(Action& action, double time_s);
@@ -134,11 +171,12 @@ class BlendPlayer {
   RootPlace root_offset_;  ///< Decaying velocity that remains of a break.
   RootPlace root_offset_rate_;
   RootAnchor anchor_;
-  double anchored_s_ = 0.0;       ///< For the present or last transition.
+  double delay_s_ = 0.0;          ///< Until the fade of the action that begins.
   double anchor_strength_ = 0.0;  ///< 0 to 1, before smoothing.
   double transition_end_s_ = -1.0;
   PerFootPart bears_{};
   TransitionReport report_;
+  std::unique_ptr<LivePlayer> live_;
 };
 
 }  // namespace marey::engine

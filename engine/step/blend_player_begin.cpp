@@ -8,6 +8,7 @@
 #include "engine/step/blend_player.h"
 #include "engine/sync/plan_sync.h"
 #include "engine/transition/entry_cost.h"
+#include "engine/transition/landing_cost.h"
 
 // The beginning of actions, and the transitions to them.
 
@@ -16,14 +17,13 @@ namespace {
 
 // A clip that does not loop is not entered so late that it ends within this time.
 constexpr double kLeast_s = 1.2;
+// A fade begins at most this late. [s]
+constexpr double kMostDelay_s = 0.12;
 
-// Times of a clip at which an action may enter: the middle and half of the width.
-struct EntryRange {
-  double middle_s = 0.0;
-  double half_s = 0.0;
-};
+}  // namespace
 
-EntryRange entry_range(const Action& action, const MotionClip& clip) {
+BlendPlayer::EntryRange BlendPlayer::entry_range(const Action& action,
+                                                 const MotionClip& clip) {
   const double asked_s = action.entry_s.value_or(0.0);
   if (clip.loops) return {asked_s, action.entry_search_s};
   const double first_s = std::max(0.0, asked_s - action.entry_search_s);
@@ -33,9 +33,8 @@ EntryRange entry_range(const Action& action, const MotionClip& clip) {
   return {0.5 * (first_s + end_s), 0.5 * (end_s - first_s)};
 }
 
-}  // namespace
-
 bool BlendPlayer::may_begin(const Action& action, double time_s, double step_s) const {
+  if (action.is_live && !live_->source().has_data()) return false;
   if (action.start == ActionStart::Kind::kNow) return true;
   if (action.start == ActionStart::Kind::kAtTime) return time_s >= action.start_s;
   const Action* other = find(action.after);
@@ -97,6 +96,8 @@ void BlendPlayer::retire_replaced(const Action& by, double time_s, bool at_once)
 }
 
 void BlendPlayer::begin_inertial(Action& action, double time_s) {
+  action.fade_in_s = 0.0;
+  if (action.is_live) return;
   unsigned bearing = 0;
   for (std::size_t part = 0; part < bears_.size(); ++part) {
     if (bears_[part] > 0.5) bearing |= 1U << part;
@@ -115,14 +116,13 @@ void BlendPlayer::begin_inertial(Action& action, double time_s) {
                          clip.loops && !action.entry_s);
   }
   action.warp.start(time_s, entry, action.rate);
-  action.fade_in_s = 0.0;
 }
 
 bool BlendPlayer::synchronise(Action& action, double time_s, bool always) {
   const Action* lead_action = nullptr;
   for (std::size_t i = 0; i < count_; ++i) {
     const Action& other = actions_[i];
-    if (&other == &action || !other.is_alive()) continue;
+    if (&other == &action || !other.is_alive() || other.is_live) continue;
     const float most = std::max(other.leg_priority(), action.leg_priority());
     if (other.leg_priority() <= 0.05F * most) continue;
     if (lead_action == nullptr || other.leg_priority() > lead_action->leg_priority()) {
@@ -160,7 +160,35 @@ bool BlendPlayer::synchronise(Action& action, double time_s, bool always) {
     (void)action.warp.replan(
         time_s, std::span(knots).subspan(1, plan.knot_count - 1), action.rate, 0.0);
   }
+  if (!always && action.replaces) choose_landing(*lead_action, action, range, time_s);
   return true;
+}
+
+void BlendPlayer::choose_landing(const Action& lead_action,
+                                 Action& action,
+                                 const EntryRange& range,
+                                 double time_s) {
+  EntryQuestion question;
+  question.rig = &rig_;
+  question.from = &base_->clip(lead_action.clip);
+  question.from_source_s = lead_action.warp.source_s(time_s);
+  question.from_rate = lead_action.rate;
+  question.to = &base_->clip(action.clip);
+  question.to_rate = action.rate;
+  question.asked_s = action.entry_s.value_or(0.0);
+  question.first_s = range.middle_s - range.half_s;
+  question.last_s = range.middle_s + range.half_s;
+  question.anywhere = question.to->loops && range.half_s > 0.0;
+  question.fade_s = action.fade_in_s;
+  // The fade has 0.9 after 0.75 of its time.
+  question.max_delay_s =
+      std::clamp(options_.settle_s - 0.75 * action.fade_in_s, 0.0, kMostDelay_s);
+  const double planned_m = entry_landing_cost(
+      question, 0.0, action.warp.source_s(time_s + 0.5 * action.fade_in_s));
+  const EntryAnswer answer = choose_entry(question);
+  if (answer.cost_m >= planned_m) return;
+  action.warp.start(time_s, answer.entry_s, action.rate);
+  delay_s_ = answer.delay_s;
 }
 
 void BlendPlayer::place_warp(Action& action, double time_s) {
@@ -177,6 +205,7 @@ void BlendPlayer::place_warp(Action& action, double time_s) {
 
 void BlendPlayer::begin(Action& action, double time_s) {
   report_ = {};
+  delay_s_ = 0.0;
   place_warp(action, time_s);
   const bool moves_legs = action.leg_priority() > 0.0F;
   const bool meets_others = is_known_ && moves_legs;
@@ -186,7 +215,10 @@ void BlendPlayer::begin(Action& action, double time_s) {
   if (at_once) {
     if (action.transition == TransitionKind::kInertial) begin_inertial(action, time_s);
     action.fade_in_s = 0.0;
-  } else if (meets_others && action.transition != TransitionKind::kCrossfade) {
+  } else if (enter_in_step(action, time_s)) {
+    report_.is_synchronised = true;
+  } else if (meets_others && !action.is_live &&
+             action.transition != TransitionKind::kCrossfade) {
     report_.is_synchronised =
         base_->has_contacts(action.clip) &&
         synchronise(action, time_s, action.transition == TransitionKind::kSynchronised);
@@ -199,13 +231,13 @@ void BlendPlayer::begin(Action& action, double time_s) {
   if (!is_known_) action.fade_in_s = 0.0;
   report_.is_inertial = at_once && action.transition != TransitionKind::kCut;
   action.phase = action.fade_in_s > 0.0 ? ActionPhase::kFadingIn : ActionPhase::kHolding;
-  action.started_s = time_s;
-  if (action.replaces) retire_replaced(action, time_s, at_once);
+  action.started_s = time_s + delay_s_;
+  if (action.replaces) retire_replaced(action, action.started_s, at_once);
   if (at_once && is_known_) is_broken_ = true;
   cuts_ = cuts_ || action.transition == TransitionKind::kCut;
   if (moves_legs && is_known_) {
     const double lasts_s = at_once ? 3.0 * options_.half_life_s : action.fade_in_s;
-    transition_end_s_ = std::max(transition_end_s_, time_s + lasts_s);
+    transition_end_s_ = std::max(transition_end_s_, action.started_s + lasts_s);
   }
 }
 

@@ -137,6 +137,13 @@ WizardRequest wizard(Members& members) {
                                         {"accept", WizardAction::kAccept}})};
 }
 
+RunRequest run(Members& members) {
+  return {members.one_of<RunAction>("action",
+                                    {{"play", RunAction::kPlay},
+                                     {"pause", RunAction::kPause},
+                                     {"restart", RunAction::kRestart}})};
+}
+
 std::optional<PageRequest> of_type(const std::string& type, Members& members) {
   if (type == "hello") return HelloRequest{members.version()};
   if (type == "shown") return ShownRequest{members.number("sent_s")};
@@ -146,6 +153,7 @@ std::optional<PageRequest> of_type(const std::string& type, Members& members) {
     return ConstraintRequest{std::move(id), members.flag("active")};
   }
   if (type == "wizard") return wizard(members);
+  if (type == "run") return run(members);
   if (type == "record") return RecordRequest{members.flag("on")};
   if (type == "thumbnails") return ThumbnailsRequest{members.flag("on")};
   if (type == "trial") return TrialRequest{members.id("name")};

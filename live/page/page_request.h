@@ -47,6 +47,12 @@ struct ThumbnailsRequest {
   bool on = false;
 };
 
+enum class RunAction { kPlay, kPause, kRestart };
+/// Control of a scene that runs live.
+struct RunRequest {
+  RunAction action = RunAction::kPlay;
+};
+
 using PageRequest = std::variant<HelloRequest,
                                  ShownRequest,
                                  DragRequest,
@@ -54,7 +60,8 @@ using PageRequest = std::variant<HelloRequest,
                                  WizardRequest,
                                  RecordRequest,
                                  ThumbnailsRequest,
-                                 TrialRequest>;
+                                 TrialRequest,
+                                 RunRequest>;
 
 /// Parses one message of a page. Unknown members are ignored.
 ///

@@ -137,20 +137,21 @@ const char* name(PageConstraintKind kind) {
 std::string scene_json(const PageScene& scene) {
   PageJson points;
   if (scene.point_labels) points = {{"labels", *scene.point_labels}};
-  return in_one_line(
-      {{"type", "scene"},
-       {"version", 1},
-       {"revision", scene.revision},
-       {"title", scene.title},
-       {"mode", mode_of(scene)},
-       {"rate_hz", scene.rate_hz},
-       {"skeletons", array_of(scene.skeletons, skeleton_object)},
-       {"cameras", array_of(scene.cameras, camera_object)},
-       {"points", points},
-       {"floor", {{"height_m", scene.floor_height_m}}},
-       {"constraints", array_of(scene.constraints, constraint_object)},
-       {"file", file_object(scene.file)},
-       {"wizard", scene.wizard ? wizard_object(*scene.wizard) : PageJson()}});
+  PageJson out = {{"type", "scene"},
+                  {"version", 1},
+                  {"revision", scene.revision},
+                  {"title", scene.title},
+                  {"mode", mode_of(scene)},
+                  {"rate_hz", scene.rate_hz},
+                  {"skeletons", array_of(scene.skeletons, skeleton_object)},
+                  {"cameras", array_of(scene.cameras, camera_object)},
+                  {"points", points},
+                  {"floor", {{"height_m", scene.floor_height_m}}},
+                  {"constraints", array_of(scene.constraints, constraint_object)},
+                  {"file", file_object(scene.file)},
+                  {"wizard", scene.wizard ? wizard_object(*scene.wizard) : PageJson()}};
+  if (scene.run) out["run"] = true;
+  return in_one_line(out);
 }
 
 std::string constraints_json(const std::vector<PageConstraint>& constraints) {

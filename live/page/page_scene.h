@@ -110,6 +110,8 @@ struct PageFile {
 /// recording; one without is live, or the page of marey edit.
 struct PageScene {
   bool edit = false;  ///< The page of marey edit (docs/formats/edit_page.md).
+  /// A scene that runs live (live/page/page_run.h); its constraints are the targets.
+  bool run = false;
   int revision = 1;   ///< Incremented whenever another member changes.
   std::string title{};
   double rate_hz = 30.0;

@@ -19,6 +19,8 @@ enum class MessageSlot : std::size_t {
   kStatus,
   kWizard,
   kConstraints,
+  kRun,
+  kTargets,
   kRevision,
   kProgress,
   kRendered,

@@ -72,6 +72,10 @@ std::size_t slot_of(PageMessage kind) {
       return index(MessageSlot::kWizard);
     case PageMessage::kConstraints:
       return index(MessageSlot::kConstraints);
+    case PageMessage::kRun:
+      return index(MessageSlot::kRun);
+    case PageMessage::kTargets:
+      return index(MessageSlot::kTargets);
     case PageMessage::kRevision:
       return index(MessageSlot::kRevision);
     case PageMessage::kProgress:

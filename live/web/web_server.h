@@ -23,6 +23,8 @@ enum class PageMessage {
   kStatus,
   kWizard,
   kConstraints,
+  kRun,      ///< State and figures of a scene that runs live.
+  kTargets,  ///< Places of its targets.
   // Messages of the page of marey edit.
   kRevision,
   kProgress,

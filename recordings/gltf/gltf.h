@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -94,6 +95,22 @@ struct ReadCharacterOptions {
                                      const SkinnedMesh& mesh,
                                      const Motion* motion = nullptr,
                                      std::string_view clip = "motion");
+
+/// One body of a file with several, and its motion.
+struct BodyClip {
+  std::string name{};                  ///< Different for all bodies of the file.
+  const Skeleton* skeleton = nullptr;  ///< Not nullptr.
+  const SkinnedMesh* mesh = nullptr;   ///< Bound to the skeleton; nullptr: none.
+  std::span<const Pose> poses{};       ///< As many as those of the other bodies.
+};
+
+/// Writes a GLB of several bodies with one animation of them all. Nodes are named by the
+/// body and the joint: "ann.hips". Otherwise as write_character(), also its errors and
+/// preconditions.
+[[nodiscard]] Status write_characters(const std::filesystem::path& path,
+                                      std::span<const BodyClip> bodies,
+                                      FrameRate rate,
+                                      std::string_view clip = "motion");
 
 /// Rotation, scale and joints of a body relative to the result of read_character().
 struct ChangedFrame {

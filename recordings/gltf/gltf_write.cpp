@@ -14,141 +14,18 @@
 #include "core/pose.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/gltf/gltf.h"
+#include "recordings/gltf/gltf_bodies.h"
 #include "recordings/gltf/gltf_builder.h"
 #include "recordings/gltf/gltf_source.h"
 
 namespace marey::recordings {
 namespace {
 
-Json array_of(const glm::dvec3& v) {
-  return Json::array({v.x, v.y, v.z});
-}
-
-Json array_of(const glm::dquat& q) {
-  return Json::array({q.x, q.y, q.z, q.w});
-}
-
-std::vector<float> floats_of(std::span<const glm::dvec3> list) {
-  std::vector<float> values;
-  values.reserve(3 * list.size());
-  for (const glm::dvec3& v : list) {
-    for (int i = 0; i < 3; ++i) values.push_back(static_cast<float>(v[i]));
-  }
-  return values;
-}
-
-/// One node per joint, in the same order.
-Json joint_nodes(const Skeleton& skeleton) {
-  Json nodes = Json::array();
-  for (const Joint& joint : skeleton.joints) {
-    Json node{{"name", joint.name}};
-    const auto& [rotation, translation] = joint.parent_from_joint;
-    if (translation != glm::dvec3(0.0)) node["translation"] = array_of(translation);
-    if (rotation != glm::dquat(1.0, 0.0, 0.0, 0.0)) node["rotation"] = array_of(rotation);
-    nodes.push_back(std::move(node));
-  }
-  for (std::size_t i = 1; i < skeleton.joints.size(); ++i) {
-    const auto& parent = skeleton.joints[i].parent;
-    MAREY_ASSERT(parent.has_value());
-    nodes[index(*parent)]["children"].push_back(i);
-  }
-  return nodes;
-}
-
-Json make_skin(GltfBuilder& builder, const Skeleton& skeleton) {
-  std::vector<float> matrices;
-  Json joints = Json::array();
-  for (const RigidTransform& world_from_joint :
-       world_from_joints(skeleton, rest_pose(skeleton))) {
-    const RigidTransform joint_from_world = inverse(world_from_joint);
-    glm::dmat4 matrix = glm::mat4_cast(glm::normalize(joint_from_world.rotation));
-    matrix[3] = glm::dvec4(joint_from_world.translation, 1.0);
-    for (int column = 0; column < 4; ++column) {
-      for (int row = 0; row < 4; ++row) {
-        matrices.push_back(static_cast<float>(matrix[column][row]));
-      }
-    }
-    joints.push_back(joints.size());
-  }
-  return {{"inverseBindMatrices", builder.add_floats(matrices, 16, "MAT4", false)},
-          {"skeleton", 0},
-          {"joints", std::move(joints)}};
-}
-
-/// Converts weights to floats whose sum is one within float precision.
-std::array<float, 4> float_weights(const SkinWeights& skin) {
-  std::array<float, 4> weights{};
-  float others = 0.0F;
-  for (std::size_t k = 1; k < 4; ++k) {
-    weights[k] = static_cast<float>(skin.weights[k]);
-    others += weights[k];
-  }
-  weights[0] = 1.0F - others;
-  return weights;
-}
-
-Json vertex_attributes(GltfBuilder& builder,
-                       const SkinnedMesh& mesh,
-                       std::size_t joint_count) {
-  std::vector<std::uint32_t> joints;
-  std::vector<float> weights;
-  for (const SkinWeights& skin : mesh.skin) {
-    const auto carried = float_weights(skin);
-    for (std::size_t k = 0; k < 4; ++k) {
-      joints.push_back(
-          carried[k] > 0.0F ? static_cast<std::uint32_t>(index(skin.joints[k])) : 0U);
-      weights.push_back(carried[k]);
-    }
-  }
-  const auto positions = floats_of(mesh.p_in_world);
-  const auto normals = floats_of(mesh.normal_in_world);
-  const auto last_joint = static_cast<std::uint32_t>(joint_count - 1);
-  return {
-      {"POSITION", builder.add_floats(positions, 3, "VEC3", true, kVertexTarget)},
-      {"NORMAL", builder.add_floats(normals, 3, "VEC3", false, kVertexTarget)},
-      {"JOINTS_0", builder.add_integers(joints, 4, "VEC4", last_joint, kVertexTarget)},
-      {"WEIGHTS_0", builder.add_floats(weights, 4, "VEC4", false, kVertexTarget)}};
-}
-
-void add_mesh(Json& document,
-              GltfBuilder& builder,
-              const SkinnedMesh& mesh,
-              std::size_t joint_count) {
-  const Json attributes = vertex_attributes(builder, mesh, joint_count);
-  const auto last_vertex = static_cast<std::uint32_t>(mesh.p_in_world.size() - 1);
-  Json primitives = Json::array();
-  for (const MeshPart& part : mesh.parts) {
-    if (part.triangles.empty()) continue;
-    const glm::dvec3& colour = part.material.base_colour;
-    document["materials"].push_back(
-        {{"name", part.material.name},
-         {"pbrMetallicRoughness",
-          {{"baseColorFactor", Json::array({colour.r, colour.g, colour.b, 1.0})},
-           {"metallicFactor", 0.0},
-           {"roughnessFactor", part.material.roughness}}}});
-    primitives.push_back(
-        {{"attributes", attributes},
-         {"indices",
-          builder.add_integers(part.triangles, 1, "SCALAR", last_vertex, kIndexTarget)},
-         {"material", document["materials"].size() - 1}});
-  }
-  document["meshes"] =
-      Json::array({Json{{"name", "body"}, {"primitives", std::move(primitives)}}});
-}
-
-std::vector<NodeTrack> tracks_of(const Motion& motion) {
-  std::vector<NodeTrack> tracks(motion.skeleton.joints.size());
-  for (std::size_t joint = 0; joint < tracks.size(); ++joint) {
-    tracks[joint].node = static_cast<int>(joint);
-    for (const Pose& pose : motion.poses) {
-      MAREY_ASSERT(pose.parent_from_joint.size() == tracks.size());
-      tracks[joint].rotations.push_back(pose.parent_from_joint[joint]);
-    }
-  }
-  for (const Pose& pose : motion.poses) {
-    tracks[0].translations.push_back(pose.root_in_world);
-  }
-  return tracks;
+Json empty_document() {
+  return {{"asset", {{"version", "2.0"}, {"generator", "marey"}}},
+          {"scene", 0},
+          {"scenes", Json::array({Json{{"nodes", Json::array()}}})},
+          {"nodes", Json::array()}};
 }
 
 Error not_of_this_body(const std::filesystem::path& source, std::string cause) {
@@ -232,7 +109,8 @@ Status check_body(const std::filesystem::path& source,
 
 /// Converts the motion to tracks of the source's nodes. Joints that never move get none.
 std::vector<NodeTrack> tracks_in_source(const GltfSource& source, const Motion& motion) {
-  std::vector<NodeTrack> tracks = tracks_of(motion);
+  std::vector<NodeTrack> tracks =
+      tracks_of(motion.poses, motion.skeleton.joints.size(), 0);
   const glm::dmat4 parent_from_world = glm::inverse(source.world_from_root_parent);
   for (glm::dvec3& place : tracks[0].translations) {
     place = glm::dvec3(parent_from_world * glm::dvec4(place, 1.0));
@@ -339,27 +217,47 @@ Status write_character(const std::filesystem::path& path,
                        const SkinnedMesh& mesh,
                        const Motion* motion,
                        std::string_view clip) {
-  MAREY_ASSERT(!skeleton.joints.empty());
-  MAREY_ASSERT(mesh.skin.size() == mesh.p_in_world.size());
-  MAREY_ASSERT(mesh.normal_in_world.size() == mesh.p_in_world.size());
-  const std::size_t joints = skeleton.joints.size();
-  Json document{{"asset", {{"version", "2.0"}, {"generator", "marey"}}},
-                {"scene", 0},
-                {"scenes", Json::array({Json{{"nodes", Json::array({0})}}})}};
+  Json document = empty_document();
   std::string buffer;
   GltfBuilder builder(document, buffer);
-  document["nodes"] = joint_nodes(skeleton);
-  if (!mesh.p_in_world.empty()) {
-    // At the scene's root: the transforms above a skinned mesh are ignored.
-    document["scenes"][0]["nodes"].push_back(joints);
-    document["nodes"].push_back({{"name", "body"}, {"mesh", 0}, {"skin", 0}});
-    add_mesh(document, builder, mesh, joints);
-  }
-  document["skins"] = Json::array({make_skin(builder, skeleton)});
+  (void)add_body(document, builder, skeleton, mesh);
   if (motion != nullptr && !motion->poses.empty()) {
+    const std::size_t joints = skeleton.joints.size();
     MAREY_ASSERT(motion->skeleton.joints.size() == joints);
-    document["animations"] = Json::array({make_animation(
-        builder, tracks_of(*motion), motion->poses.size(), motion->rate, clip)});
+    document["animations"] =
+        Json::array({make_animation(builder,
+                                    tracks_of(motion->poses, joints, 0),
+                                    motion->poses.size(),
+                                    motion->rate,
+                                    clip)});
+  }
+  return write_file(path, builder.glb());
+}
+
+Status write_characters(const std::filesystem::path& path,
+                        std::span<const BodyClip> bodies,
+                        FrameRate rate,
+                        std::string_view clip) {
+  Json document = empty_document();
+  std::string buffer;
+  GltfBuilder builder(document, buffer);
+  std::vector<NodeTrack> tracks;
+  std::size_t frames = 0;
+  for (const BodyClip& body : bodies) {
+    const SkinnedMesh none;
+    const std::size_t first = add_body(document,
+                                       builder,
+                                       *body.skeleton,
+                                       body.mesh == nullptr ? none : *body.mesh,
+                                       body.name + ".");
+    for (NodeTrack& track : tracks_of(body.poses, body.skeleton->joints.size(), first)) {
+      tracks.push_back(std::move(track));
+    }
+    frames = body.poses.size();
+  }
+  if (frames > 0) {
+    document["animations"] =
+        Json::array({make_animation(builder, tracks, frames, rate, clip)});
   }
   return write_file(path, builder.glb());
 }

@@ -10,10 +10,9 @@
 // Private to recordings/moves.
 namespace marey::recordings {
 
-/// Returns the reason why a clip cannot be in a file: a name that is not one line of
-/// text, fewer than two frames, another number of path entries, numbers that are not
-/// finite or out of range, rotations that are not of unit length, contacts, tags or notes
-/// out of order, sums that are not hexadecimal. nullopt: it can. Linear in frames.
+/// Returns the reason why a clip cannot be in a file: that of motion_clip_fault(); a name
+/// that is not one line of text, a rate out of range, tags or notes out of order, sums
+/// that are not hexadecimal. nullopt: it can. Linear in frames.
 [[nodiscard]] std::optional<std::string> clip_problem(const MotionClip& clip);
 
 /// Returns the reason why a layout cannot be in a file: knots that do not ascend from 0

@@ -25,6 +25,22 @@ constexpr std::array<std::string_view, 4> kTransitionWords{
 constexpr std::array<std::string_view, 4> kConstraintWords{
     "point", "inside", "outside", "oriented"};
 
+/// Keys of one throw, which a list of trials gives instead.
+constexpr std::array<std::string_view, 8> kThrowParameters{"place_left_m",
+                                                           "place_up_m",
+                                                           "place_forward_m",
+                                                           "azimuth_deg",
+                                                           "elevation_deg",
+                                                           "speed_m_s",
+                                                           "release_s",
+                                                           "aim"};
+
+std::vector<std::string_view> throw_keys() {
+  std::vector<std::string_view> keys{"clip", "hand", "drag_1_m", "trials", "every_s"};
+  keys.insert(keys.begin() + 2, kThrowParameters.begin(), kThrowParameters.end());
+  return keys;
+}
+
 /// Stores the mistake that two keys of different meanings cannot be given together.
 void exclude(TomlReader& in, std::string_view first, std::string_view second) {
   if (!in.has(first) || !in.has(second)) return;
@@ -96,16 +112,7 @@ SceneThrow read_throw(TomlReader& in, const Scene& scene) {
   if (in.has("every_s") && !in.has("trials")) {
     in.fail("every_s", "\"every_s\" is given without \"trials\"", "add trials, a file");
   }
-  for (const std::string_view key : {"place_left_m",
-                                     "place_up_m",
-                                     "place_forward_m",
-                                     "azimuth_deg",
-                                     "elevation_deg",
-                                     "speed_m_s",
-                                     "release_s",
-                                     "aim"}) {
-    exclude(in, "trials", key);
-  }
+  for (const std::string_view key : kThrowParameters) exclude(in, "trials", key);
   return deed;
 }
 
@@ -209,50 +216,38 @@ const std::vector<std::string_view>& deed_keys(std::size_t deed) {
       KeyList{"clip", "loops", "cycles", "rate", "from_s", "transition"},
       KeyList{"action"},
       KeyList{"clip",
-           "target",
-           "hand",
-           "offset_m",
-           "approach",
-           "orientation_deg",
-           "orientation_wxyz",
-           "arrival_speed_m_s",
-           "arrive_s",
-           "holds"},
+              "target",
+              "hand",
+              "offset_m",
+              "approach",
+              "orientation_deg",
+              "orientation_wxyz",
+              "arrival_speed_m_s",
+              "arrive_s",
+              "holds"},
+      throw_keys(),
       KeyList{"clip",
-           "hand",
-           "place_left_m",
-           "place_up_m",
-           "place_forward_m",
-           "azimuth_deg",
-           "elevation_deg",
-           "speed_m_s",
-           "release_s",
-           "aim",
-           "drag_1_m",
-           "trials",
-           "every_s"},
-      KeyList{"clip",
-           "target",
-           "stop_clip",
-           "max_turn_deg",
-           "max_turn_deg_s",
-           "step_length",
-           "arrive_within_m",
-           "keeps"},
+              "target",
+              "stop_clip",
+              "max_turn_deg",
+              "max_turn_deg_s",
+              "step_length",
+              "arrive_within_m",
+              "keeps"},
       KeyList{"clip", "apex_m", "apex_by_m", "airtime_s", "length_m", "box_m", "target"},
       KeyList{"target", "segment", "offset_m", "max_speed_m_s"},
       KeyList{"hand", "mass_kg", "offset_m"},
       KeyList{"type",
-           "target",
-           "segment",
-           "offset_m",
-           "distance_m",
-           "size_m",
-           "orientation_deg",
-           "orientation_wxyz",
-           "range",
-           "importance",
-           "precision_m"}};
+              "target",
+              "segment",
+              "offset_m",
+              "distance_m",
+              "size_m",
+              "orientation_deg",
+              "orientation_wxyz",
+              "range",
+              "importance",
+              "precision_m"}};
   MAREY_ASSERT(deed < kKeys.size());
   return kKeys[deed];
 }

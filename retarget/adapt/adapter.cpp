@@ -178,6 +178,11 @@ void Adapter::Handle::stop(double time_s) {
   state_->member.activations()[constraint_].stop(time_s);
 }
 
+void Adapter::Handle::set_share(double share) {
+  MAREY_ASSERT(share >= 0.0 && share <= 1.0);
+  state_->member.activations()[constraint_].set_share(share);
+}
+
 const ConstraintOutcome& Adapter::Handle::outcome() const {
   return state_->member.outcomes()[constraint_];
 }

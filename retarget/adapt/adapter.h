@@ -56,6 +56,8 @@ class Adapter {
     /// Starts or stops the constraint at `time_s`, with its own fade durations.
     void start(double time_s);
     void stop(double time_s);
+    /// Multiplies the activation by a share that the caller moves. Precondition: 0 to 1.
+    void set_share(double share);
     /// Outcome of the last adapt().
     [[nodiscard]] const ConstraintOutcome& outcome() const;
 

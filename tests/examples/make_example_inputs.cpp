@@ -9,18 +9,22 @@
 #include <fstream>
 #include <iostream>
 #include <string>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "core/camera.h"
 #include "core/human/average_proportions.h"
+#include "core/pose.h"
 #include "core/skeleton.h"
 #include "reconstruct/labels/landmarks.h"
 #include "recordings/markers/marker_file.h"
+#include "recordings/motion/bvh.h"
 #include "recordings/session/detections_file.h"
 #include "recordings/takes/take_file.h"
 #include "tests/support/bodies/labelled_wearer.h"
 #include "tests/support/simulation/simulated_calibration.h"
+#include "tests/support/simulation/synthetic_walk.h"
 
 namespace marey::testing {
 namespace {
@@ -190,6 +194,35 @@ void make_take(const fs::path& folder) {
   truth.add("right_length_s", 74.0 / 25.0, 0.001);
 }
 
+/// A walk, and a person who stands and raises the right arm to the front until 1 s.
+void make_actions(const fs::path& folder) {
+  const Motion walk = synthetic_walk(180, 60.0).motion;
+  stop_on_error(recordings::write_bvh(folder / "walk.bvh", walk));
+  const double degree = std::acos(-1.0) / 180.0;
+  Motion reach{walk.skeleton, {60.0}, 0, {}};
+  for (int frame = 0; frame <= 150; ++frame) {
+    const double x = std::min(frame / 60.0, 1.0);
+    const double share = x * x * x * (10.0 - 15.0 * x + 6.0 * x * x);
+    Pose pose = rest_pose(walk.skeleton);
+    const auto turn = [&](HumanBone bone, double angle_deg, const glm::dvec3& axis) {
+      pose.parent_from_joint[index(bone)] = glm::angleAxis(angle_deg * degree, axis);
+    };
+    turn(HumanBone::kLeftUpperArm, -75.0, {0.0, 0.0, 1.0});
+    const glm::dquat down = glm::angleAxis(75.0 * degree, glm::dvec3(0.0, 0.0, 1.0));
+    const glm::dquat ahead = glm::angleAxis(80.0 * degree, glm::dvec3(0.0, 1.0, 0.0));
+    pose.parent_from_joint[index(HumanBone::kRightUpperArm)] =
+        glm::slerp(down, ahead, share);
+    turn(HumanBone::kRightLowerArm, 40.0, {0.0, 1.0, 0.0});
+    reach.poses.push_back(std::move(pose));
+  }
+  stop_on_error(recordings::write_bvh(folder / "reach.bvh", reach));
+  Truth truth(folder, "play_actions");
+  truth.add("far_reachable", 0.0, 0.0);
+  truth.add("near_reachable", 1.0, 0.0);
+  // The same bar as for reaches in docs/accuracy/engine.md.
+  truth.add("palm_to_cup_mm", 0.0, 1.0);
+}
+
 }  // namespace
 }  // namespace marey::testing
 
@@ -204,5 +237,6 @@ int main(int argc, char** argv) {
   marey::testing::write_postures(folder);
   marey::testing::make_detections(folder);
   marey::testing::make_take(folder);
+  marey::testing::make_actions(folder);
   return 0;
 }

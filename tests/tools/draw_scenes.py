@@ -160,4 +160,5 @@ def main():
         draw(glb, out, arguments.width)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -17,8 +17,8 @@ const percentile = (values, share) =>
   values.sort((a, b) => a - b)[Math.min(values.length - 1, Math.floor(share * values.length))];
 
 /** `finish`: also waits until the pixels are there, which costs time itself. */
-async function measure(browser, {label, rate_hz, width, height, finish, avatar}) {
-  const server = new MockServer({rate_hz, avatar,
+async function measure(browser, {label, rate_hz, width, height, finish, avatar, mode = 'live'}) {
+  const server = new MockServer({rate_hz, avatar, mode,
     clock_s: () => (performance.timeOrigin + performance.now()) / 1000});
   const address = await server.start();
   const {page, close} = await openPage(browser, address, {viewport: {width, height: 720}});
@@ -62,4 +62,8 @@ for (const finish of [false, true]) {
   }
 }
 await measure(browser, {label, rate_hz: 30, width: 1280, height: 720, finish: true, avatar});
+for (const finish of [false, true]) {
+  await measure(browser, {label: 'forty bodies of 25 bones', rate_hz: 60, width: 960, height: 600,
+    finish, mode: 'stage'});
+}
 await browser.close();

@@ -7,7 +7,7 @@
 import {readFileSync, existsSync} from 'node:fs';
 import {createServer} from 'node:http';
 import {avatarFile} from './avatar_file.mjs';
-import {fileScene, FIRST, liveScene, statusAt, wizardAt} from './scenes.mjs';
+import {fileScene, FIRST, liveScene, runAt, stageScene, statusAt, targetsAt, wizardAt} from './scenes.mjs';
 import {pageFolder} from './installed.mjs';
 import {PageSocket} from './socket.mjs';
 import {encodeFrame} from './walker.mjs';
@@ -20,9 +20,10 @@ const POLICY = "default-src 'self'; img-src 'self' blob: data:; connect-src 'sel
   "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 export class MockServer {
-  /** Options: mode ('live' or 'file'), rate_hz, avatar (true, or the bytes of a file and its
+  /** Options: mode ('live', 'file' or 'stage', with the number `stage` of bodies), rate_hz, avatar (true, or the bytes of a file and its
    *  skeleton: {bytes, words}), frames, clock_s(), which returns the values of sent_s. */
-  constructor({mode = 'live', rate_hz = 30, avatar = true, frames = 300, clock_s = null} = {}) {
+  constructor({mode = 'live', rate_hz = 30, avatar = true, frames = 300, clock_s = null,
+    stage = 40} = {}) {
     Object.assign(this, {mode, rate_hz, frames});
     this.clock_s = clock_s ?? (() => performance.now() / 1000);
     this.pages = new Set();
@@ -34,10 +35,14 @@ export class MockServer {
     /** The reason why takes fail; empty if they succeed. */
     this.recordingTrouble = '';
     this.wizard = null;
-    this.scene = mode === 'live' ? liveScene(rate_hz, avatar) : fileScene(rate_hz, frames, avatar);
+    /** State of a scene of marey stage, and the places of its targets that a page holds. */
+    this.run = 'playing';
+    this.held = {};
+    this.scene = mode === 'live' ? liveScene(rate_hz, avatar)
+      : mode === 'stage' ? stageScene(rate_hz, stage) : fileScene(rate_hz, frames, avatar);
     this.bodies = this.scene.skeletons.map(({estimate, kind}) =>
       ({estimate, balance: kind === 'performer', tracking: kind === 'performer', droop: kind === 'avatar' ? avatar.droop : 0}));
-    if (avatar) this.media.set('/media/1', avatar.bytes ?? avatarFile());
+    if (avatar && mode !== 'stage') this.media.set('/media/1', avatar.bytes ?? avatarFile());
     if (mode === 'file') this.media.set('/media/2', this.#block());
   }
 
@@ -57,7 +62,7 @@ export class MockServer {
     this.server.on('upgrade', (request, socket) => this.#connect(request, socket));
     await new Promise((done) => this.server.listen(port, '127.0.0.1', done));
     this.port = this.server.address().port;
-    if (this.mode === 'live') this.#goOn();
+    if (this.mode !== 'file') this.#goOn();
     return `http://127.0.0.1:${this.port}/`;
   }
 
@@ -111,8 +116,13 @@ export class MockServer {
       if (this.silent) return;
       const bytes = encodeFrame(this.bodies, due, due / this.rate_hz, this.clock_s());
       for (const page of this.pages) page.send(bytes);
+      if (this.mode === 'stage') this.say(targetsAt(due / this.rate_hz, this.held));
     };
-    const tell = () => { if (!this.silent) this.say(statusAt(this)); };
+    const tell = () => {
+      if (this.silent) return;
+      this.say(this.mode === 'stage' ? runAt(this.run, this.frame / this.rate_hz)
+        : statusAt(this));
+    };
     const show = () => {
       for (const page of this.pages) {
         if (page.wantsPictures && !this.silent) page.send(thumbnail(this.frame));
@@ -127,9 +137,18 @@ export class MockServer {
     if (words.type === 'thumbnails') page.wantsPictures = words.on;
     if (words.type === 'record') this.recording = words.on ? performance.now() : null;
     if (words.type === 'wizard') this.#wizard(words.action);
-    if (words.type === 'constraint') this.#constraint(words.id, {active: words.active});
-    if (words.type === 'drag') this.#drag(page, words);
+    if (words.type === 'run') this.run = words.action === 'pause' ? 'paused' : 'playing';
+    if (words.type === 'run') this.say(runAt(this.run, this.frame / this.rate_hz));
+    if (this.mode === 'stage') this.#hold(words);
+    else if (words.type === 'constraint') this.#constraint(words.id, {active: words.active});
+    else if (words.type === 'drag') this.#drag(page, words);
     if (words.type === 'record') this.say(statusAt(this));
+  }
+
+  #hold({type, id, p_in_world, active}) {
+    const i = this.scene.constraints.findIndex((one) => one.id === id);
+    if (type === 'drag') this.held[i] = p_in_world;
+    if (type === 'constraint' && !active) delete this.held[i];
   }
 
   #constraint(id, change) {

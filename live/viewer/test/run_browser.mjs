@@ -16,6 +16,6 @@ if (why) {
 const here = fileURLToPath(new URL('.', import.meta.url));
 // Runs one test at a time, as rendering in software leaves no core for a second browser.
 const {status} = spawnSync(process.execPath, ['--test', '--test-concurrency=1',
-  ...['live_page', 'file_page', 'ops_panel', 'jump_panel'].map((name) => `${here}${name}.test.mjs`)],
+  ...['live_page', 'file_page', 'stage_page', 'ops_panel', 'jump_panel'].map((name) => `${here}${name}.test.mjs`)],
   {stdio: 'inherit'});
 process.exit(status ?? 1);

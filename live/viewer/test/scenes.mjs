@@ -52,6 +52,27 @@ export function liveScene(rate_hz, avatar) {
   return {...common('live', rate_hz, avatar), title: 'studio', file: null};
 }
 
+/** A scene of marey stage: bodies in rows of eight, two targets in front of them. */
+export function stageScene(rate_hz, count) {
+  return {...common('live', rate_hz, false), title: 'forty', run: true, file: null, cameras: [],
+    skeletons: Array.from({length: count}, (_, i) =>
+      skeleton(`crowd.${i + 1}`, 'avatar', [1.2 * (i % 8), 0, -1.5 * Math.floor(i / 8)], null)),
+    constraints: targetsAt(0, {}).p_in_world.map((p, i) =>
+      ({...constraint(['left', 'right'][i], 'position', p, false), draggable: i === 0}))};
+}
+
+/** Places of the targets; `held`: places by index of those that a page holds. */
+export function targetsAt(time_s, held) {
+  return {type: 'targets', held: [0, 1].map((i) => i in held), p_in_world: [0, 1].map((i) =>
+    held[i] ?? [4.5 - i + 0.1 * Math.sin(time_s), 1.2, 0.6])};
+}
+
+export function runAt(state, time_s) {
+  return {type: 'run', state, time_s, duration_s: 60, messages: [], figures: [
+    {name: 'wrist_error', unit: 'mm', value: 0.4, bound: '≤ 1', passed: true},
+    {name: 'feet_slide', unit: 'mm', value: null, bound: '≤ 0.1', passed: null}]};
+}
+
 export function fileScene(rate_hz, frames, avatar) {
   const tracks = JOINTS.filter(({bone}) => bone).map(({name}) => {
     const joint = JOINTS.findIndex((other) => other.name === name);

@@ -14,6 +14,7 @@ import {Header} from '../panels/header';
 import {giveFocusBack, Help, listenToKeys} from '../panels/help';
 import {Panels} from '../panels/panels';
 import type {DragPhase, SceneWords, ServerWords, Vector} from '../protocol/protocol';
+import type {RunWords} from '../protocol/run_protocol';
 import {Reel} from '../timeline/reel';
 import {AvatarView} from '../scene/avatar_view';
 import {drawingOfBrowser} from '../scene/renderer';
@@ -23,6 +24,7 @@ import {StatusPanel} from '../panels/status_panel';
 import {Theme} from '../base/theme';
 import {Timeline} from '../timeline/timeline';
 import {timelineOf} from '../timeline/timeline_paint';
+import {RunPanel} from '../panels/run_panel';
 import {Transport} from '../timeline/transport';
 import {Trials} from '../panels/trials';
 import {viewKeys} from '../panels/view_keys';
@@ -55,6 +57,7 @@ export class ViewPage implements Listener, StageListener {
   private readonly wizard = new WizardPanel((action) => this.send({type: 'wizard', action}));
   private readonly constraints = new ConstraintsPanel((id, active) =>
     this.send({type: 'constraint', id, active}));
+  private readonly run = new RunPanel((action) => this.send({type: 'run', action}));
   private readonly status = new StatusPanel();
   private readonly trials = new Trials((name) => this.send({type: 'trial', name}));
   private scene: SceneWords | null = null;
@@ -80,8 +83,8 @@ export class ViewPage implements Listener, StageListener {
     byId('stage').append(this.stage.element, this.wizard.guidance.element);
     this.panels = new Panels(byId('panels'), () => this.cameras.ask());
     const view = new ViewPanel(this.stage, this.theme, () => this.renew());
-    this.panels.add(this.trials.section, view.section, this.cameras.section, this.wizard.section,
-      this.constraints.section, this.status.section);
+    this.panels.add(this.trials.section, this.run.section, view.section, this.cameras.section,
+      this.wizard.section, this.constraints.section, this.status.section);
     this.timeline = new Timeline(this.theme, (frame) => {
       this.reel.playback.playing = false;
       this.reel.playback.seek(frame);
@@ -111,6 +114,8 @@ export class ViewPage implements Listener, StageListener {
       this.cameras.status(words.cameras);
     } else if (words.type === 'wizard') this.wizard.show(words);
     else if (words.type === 'constraints') this.setConstraints(words.constraints);
+    else if (words.type === 'run') this.showRun(words);
+    else if (words.type === 'targets') this.stage.setTargets(words.p_in_world, words.held);
     else if (words.type !== 'error') return;
     else if (words.about === 'wizard') this.wizard.refuse(words.text);
     else this.trouble(words.text);
@@ -148,8 +153,10 @@ export class ViewPage implements Listener, StageListener {
     const text = JSON.stringify({...scene, revision: 0, wizard: null, constraints: []});
     const same = text === this.sceneText;
     this.scene = scene;
+    // A scene of marey stage has no cameras, no performer and no status.
+    const tracks = scene.mode === 'live' && !scene.run;
     const loadWizard = (): void =>
-      this.wizard.load(scene.wizard, scene.cameras, scene.mode === 'live');
+      this.wizard.load(scene.wizard, scene.cameras, tracks);
     if (same) {
       this.setConstraints(scene.constraints);
       loadWizard();
@@ -163,8 +170,9 @@ export class ViewPage implements Listener, StageListener {
     this.stage.setScene(scene);
     this.constraints.show(scene.constraints);
     this.header.setScene(scene);
-    this.cameras.load(scene.cameras, scene.mode === 'live');
-    this.status.load(scene.mode === 'live');
+    this.cameras.load(scene.cameras, tracks);
+    this.status.load(tracks);
+    this.run.load(scene.run === true);
     loadWizard(); // Last, because the page scrolls to it when it begins.
     this.timeline.load(timelineOf(scene, this.reel));
     this.transport.setMode(scene.mode === 'live');
@@ -178,6 +186,11 @@ export class ViewPage implements Listener, StageListener {
       if (!signal.aborted) this.trouble(`The recording cannot be shown: ${String(problem)}`);
     }
     if (!signal.aborted) this.renew();
+  }
+
+  private showRun(words: RunWords): void {
+    this.run.show(words);
+    this.header.setRun(words.state);
   }
 
   private setConstraints(constraints: SceneWords['constraints']): void {
@@ -223,6 +236,10 @@ export class ViewPage implements Listener, StageListener {
     if (this.last_ms - this.told_ms < SHOWN_EVERY_MS) return;
     this.told_ms = this.last_ms;
     this.send({type: 'shown', sent_s});
+  }
+
+  release(id: string): void {
+    this.send({type: 'constraint', id, active: false});
   }
 
   drag(id: string, p_in_world: Vector, phase: DragPhase): void {

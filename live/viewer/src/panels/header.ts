@@ -5,6 +5,7 @@
 
 import {el, setText} from '../base/elements';
 import {pillOf} from './pill';
+import type {RunWords} from '../protocol/run_protocol';
 import type {SceneWords, StatusWords} from '../protocol/protocol';
 import type {Theme} from '../base/theme';
 import {milliseconds} from '../base/words';
@@ -23,6 +24,8 @@ export class Header {
   private readonly recordButton: HTMLButtonElement;
   private readonly banner = el('p', {class: 'banner', role: 'alert', hidden: true});
   private live = false;
+  /** State of a scene of marey stage; null: none is shown. */
+  private run: RunWords['state'] | null = null;
   private connected = false;
   private recording = false;
   private status: StatusWords | null = null;
@@ -42,7 +45,8 @@ export class Header {
   }
 
   setScene(scene: SceneWords): void {
-    this.live = scene.mode === 'live';
+    this.live = scene.mode === 'live' && !scene.run;
+    this.run = scene.run ? this.run ?? 'playing' : null;
     setText(this.title, scene.title || 'marey');
     document.title = scene.title ? `${scene.title} – marey` : 'marey';
     this.recordButton.hidden = !this.live;
@@ -61,6 +65,11 @@ export class Header {
     this.tell();
   }
 
+  setRun(state: RunWords['state']): void {
+    this.run = state;
+    this.tell();
+  }
+
   setStatus(status: StatusWords): void {
     this.status = status;
     this.statusAt_ms = performance.now();
@@ -76,7 +85,7 @@ export class Header {
   /** Also called a few times per second, so that a missing status becomes visible. */
   tell(): void {
     const {state, words, why} = pillOf(this.connected, this.live, this.status,
-      performance.now() - this.statusAt_ms);
+      performance.now() - this.statusAt_ms, this.run);
     setText(this.pill, words);
     if (this.pill.title !== why) this.pill.title = why;
     const name = `pill pill-${state}`;

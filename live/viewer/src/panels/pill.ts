@@ -21,10 +21,15 @@ export interface Pill {
   why: string;
 }
 
-/** `silent_ms`: time since the last status. `status` null: none received yet. */
+const RUN_WORDS = {playing: 'scene runs', paused: 'scene is paused'};
+
+/** `silent_ms`: time since the last status. `status` null: none received yet. `run`: state of a
+ *  scene of marey stage; null: none is shown. */
 export function pillOf(connected: boolean, live: boolean,
-  status: Pick<StatusWords, 'subject' | 'warnings'> | null, silent_ms: number): Pill {
+  status: Pick<StatusWords, 'subject' | 'warnings'> | null, silent_ms: number,
+  run: keyof typeof RUN_WORDS | null = null): Pill {
   if (!connected) return {state: 'offline', words: 'not connected', why: ''};
+  if (run) return {state: run === 'playing' ? 'tracked' : 'file', words: RUN_WORDS[run], why: ''};
   if (!live) return {state: 'file', words: 'from a file', why: ''};
   if (!status) return {state: 'waiting', words: WORDS.waiting, why: ''};
   if (silent_ms > STATUS_SILENCE_MS) {

@@ -4,6 +4,8 @@
 // Messages between marey and its page, version 1 (docs/formats/page.md). The
 // world is right-handed, Y up, in metres and seconds; quaternions are x y z w.
 
+import type {RunAction, RunWords, TargetsWords} from './run_protocol';
+import {RUN_TYPES} from './run_protocol';
 import type {EditErrorWords, EditPageWords, EditWords} from './edit_protocol';
 import {EDIT_TYPES} from './edit_protocol';
 import type {LibraryPageWords, LibraryServerWords} from './library_protocol';
@@ -76,6 +78,8 @@ export interface SceneWords {
   rate_hz: number; skeletons: SkeletonWords[]; cameras: CameraWords[];
   points: {labels: string[]} | null; floor: {height_m: number} | null;
   constraints: ConstraintWords[]; file: FileWords | null; wizard: WizardWords | null;
+  /** A scene of marey stage: its targets are the constraints, and `run` messages follow. */
+  run?: boolean;
 }
 
 export interface StatusWords {
@@ -105,6 +109,8 @@ export type ServerWords =
   | StatusWords
   | WizardWords
   | {type: 'constraints'; constraints: ConstraintWords[]}
+  | RunWords
+  | TargetsWords
   | EditWords
   | EditErrorWords
   | LibraryServerWords;
@@ -121,6 +127,7 @@ export type PageWords =
   | {type: 'record'; on: boolean}
   | {type: 'thumbnails'; on: boolean}
   | {type: 'trial'; name: string}
+  | {type: 'run'; action: RunAction}
   | EditPageWords
   | LibraryPageWords;
 
@@ -139,7 +146,7 @@ export function readServerWords(text: string): ServerWords | {type: 'bad'; why: 
   const {type} = words;
   if (type === 'scene') return readScene(words as SceneWords);
   if (type === 'status' || type === 'wizard' || type === 'constraints' || type === 'error' ||
-    EDIT_TYPES.includes(String(type)) || LIBRARY_TYPES.includes(String(type))) {
+    RUN_TYPES.includes(String(type)) || EDIT_TYPES.includes(String(type)) || LIBRARY_TYPES.includes(String(type))) {
     return words as ServerWords;
   }
   return {type: 'bad', why: `a message has the unknown type ${String(type)}`};

@@ -34,18 +34,22 @@ export class BodyView {
   readonly object = new Group();
   /** True once a pose was shown. */
   present = false;
-  private readonly skeleton: SkeletonView;
+  /** null: its bones are drawn with those of the crowd. */
+  private readonly skeleton: SkeletonView | null;
   private readonly balance: BalanceView;
   private avatar: Skin | null = null;
   private readonly loading = new AbortController();
 
-  /** `isGhost`: drawn translucent, to compare another body with it. */
+  /** `isGhost`: drawn translucent, to compare another body with it. `isInCrowd`: a CrowdView
+   *  draws its bones. */
   constructor(readonly words: SkeletonWords, readonly pose: Pose, private readonly shown: Shown,
-    private readonly floor_m: number, isSolid: boolean, readonly isGhost = false) {
-    this.skeleton = new SkeletonView(pose, words.offset_m, words.kind === 'performer',
+    private readonly floor_m: number, isSolid: boolean, readonly isGhost = false,
+    isInCrowd = false) {
+    this.skeleton = isInCrowd ? null : new SkeletonView(pose, words.offset_m, words.kind === 'performer',
       words.skin !== null, isSolid ? words.joints.map(({bone}) => bone) : null, isGhost);
     this.balance = new BalanceView(words.offset_m);
-    this.object.add(this.skeleton.object, this.balance.object);
+    this.object.add(this.balance.object);
+    if (this.skeleton) this.object.add(this.skeleton.object);
     this.object.visible = false;
   }
 
@@ -70,7 +74,7 @@ export class BodyView {
   }
 
   paint(theme: Theme): void {
-    this.skeleton.paint(theme);
+    this.skeleton?.paint(theme);
     this.balance.paint(theme);
   }
 
@@ -81,9 +85,9 @@ export class BodyView {
     this.present = true;
     this.pose.setFrame(frame);
     const skin = this.shown.skin && this.avatar !== null;
-    this.skeleton.show(this.shown.bones || !skin, this.shown.uncertainty && frame.hasUncertainty,
+    this.skeleton?.show(this.shown.bones || !skin, this.shown.uncertainty && frame.hasUncertainty,
       this.isGhost ? 'plain' : this.shown.colouring);
-    this.skeleton.update(frame, this.floor_m);
+    this.skeleton?.update(frame, this.floor_m);
     if (this.avatar) {
       this.avatar.object.visible = skin;
       if (skin) this.avatar.update(this.pose);
@@ -104,7 +108,7 @@ export class BodyView {
   dispose(): void {
     this.loading.abort();
     this.object.removeFromParent();
-    this.skeleton.dispose();
+    this.skeleton?.dispose();
     this.balance.dispose();
     this.avatar?.dispose();
   }

@@ -76,6 +76,19 @@ export class ConstraintView {
     }
   }
 
+  /** Moves targets to their new places, except a dragged one. Both lists have one entry per
+   *  handle; other lists belong to another scene and are ignored. */
+  setTargets(p_in_world: readonly Vector[], held: readonly boolean[], inHand: string | null): void {
+    if (p_in_world.length !== this.handles.length || held.length !== this.handles.length) return;
+    this.handles.forEach((handle, i) => {
+      handle.words.active = held[i];
+      if (handle.words.id === inHand) return;
+      const at = p_in_world[i];
+      handle.words.p_in_world = [...at];
+      handle.shown_in_world = at.map((v, k) => v + handle.offset_m[k]) as Vector;
+    });
+  }
+
   /** `shown_in_world` is the drawn position of the handle. */
   move(handle: Handle, shown_in_world: Vector): void {
     handle.shown_in_world = shown_in_world;

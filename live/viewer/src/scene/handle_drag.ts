@@ -11,17 +11,35 @@ import type {Renderer} from './renderer';
 const MOUSE_REACH_PX = 14;
 const TOUCH_REACH_PX = 28;
 
+/** Longest time between the two presses of a double click or double tap. */
+const DOUBLE_MS = 400;
+/** Movement up to which a press is a click and no drag. */
+const STILL_PX = 5;
+
+export interface HandleActions {
+  /** Escape ends a drag with it, instead of with the phase `end`. */
+  giveUp?: (id: string) => void;
+  /** A handle was clicked or tapped twice. */
+  release?: (id: string) => void;
+}
+
+/** The last click on a handle. */
+interface Click {id: string; at: [number, number]; time_ms: number}
+
 /** A drag: where it began, its plane, and how far off the handle's centre the pointer is. */
 interface Grip {id: string; pointer: number; start: Vector; normal: Vector; off: [number, number]}
 
 export class HandleDrag {
   private grip: Grip | null = null;
+  private click: Click | null = null;
+  /** The last press released a handle. */
+  hasReleased = false;
 
-  /** `giveUp`: Escape ends a drag with it, instead of with the phase `end`. */
   constructor(private readonly renderer: Renderer, private readonly view: ConstraintView,
     private readonly drag: (id: string, p_in_world: Vector, phase: DragPhase) => void,
-    giveUp?: (id: string) => void) {
+    private readonly actions: HandleActions = {}) {
     const {canvas} = renderer;
+    const {giveUp} = actions;
     // Before the orbit's own listeners.
     canvas.addEventListener('pointerdown', (event) => this.down(event), true);
     canvas.addEventListener('pointermove', (event) => this.move(event), true);
@@ -63,9 +81,20 @@ export class HandleDrag {
       this.letGo();
       return;
     }
+    this.hasReleased = false;
     const taken = event.button === 0 ? this.nearest(event) : null;
-    if (!taken) return;
+    if (!taken) {
+      this.click = null;
+      return;
+    }
     event.stopImmediatePropagation();
+    if (this.isSecondClick(taken.words.id, event)) {
+      this.click = null;
+      this.hasReleased = true;
+      this.actions.release!(taken.words.id);
+      return;
+    }
+    this.click = {id: taken.words.id, at: [event.offsetX, event.offsetY], time_ms: event.timeStamp};
     this.renderer.canvas.setPointerCapture(event.pointerId);
     const start: Vector = [...taken.shown_in_world];
     const at = this.renderer.pixelOf(start)!;
@@ -74,6 +103,18 @@ export class HandleDrag {
       off: [at[0] - event.offsetX, at[1] - event.offsetY]};
     this.view.held = id;
     this.drag(id, taken.words.p_in_world, 'begin');
+  }
+
+  private isSecondClick(id: string, event: PointerEvent): boolean {
+    return this.actions.release !== undefined && this.click?.id === id &&
+      event.timeStamp - this.click.time_ms <= DOUBLE_MS && this.isStill(event);
+  }
+
+  /** A moving target takes its handle along: the pointer's own place counts. */
+  private isStill({offsetX, offsetY}: PointerEvent): boolean {
+    if (!this.click) return false;
+    const [x, y] = this.click.at;
+    return Math.hypot(offsetX - x, offsetY - y) <= STILL_PX;
   }
 
   private move(event: PointerEvent): void {
@@ -85,6 +126,7 @@ export class HandleDrag {
     // The server may have sent the handles again meanwhile.
     const moved = view.handles.find(({words}) => words.id === grip.id);
     if (!moved || event.pointerId !== grip.pointer) return;
+    if (!this.isStill(event)) this.click = null;
     const ray = renderer.rayThrough(event.offsetX + grip.off[0], event.offsetY + grip.off[1]);
     const to = event.shiftKey ? dragVertically(renderer.eye, ray, grip.start)
       : dragInPlane(renderer.eye, ray, grip.start, grip.normal);

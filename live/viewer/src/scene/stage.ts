@@ -6,6 +6,7 @@
 import type {Object3D} from 'three';
 import {BodyView} from './body_view';
 import type {Shown, SkinLoader} from './body_view';
+import {CrowdView} from './crowd_view';
 import {ConstraintView} from './constraint_view';
 import type {PointBlock} from '../protocol/decode_blocks';
 import type {SceneFrame} from '../protocol/decode_frame';
@@ -26,6 +27,8 @@ import {RigView} from './rig_view';
 import type {Theme} from '../base/theme';
 
 const MOST_POINT_NAMES = 80;
+/** More bodies than this are drawn as one mesh, without their names. */
+const MOST_SINGLE_BODIES = 12;
 const ROOM_HEIGHT = 0.4; // Angle of the eye above the horizon. [rad]
 const NAME_ABOVE_M = 0.2; // Height of names above the highest joint, which is below the top of the head.
 
@@ -37,6 +40,8 @@ export interface StageListener {
   /** Frames the whole scene again, instead of the bodies at this instant. */
   reset?(): void;
   drag?(id: string, p_in_world: Vector, phase: DragPhase): void;
+  /** A handle was clicked twice; without it, a double click on it resets the view. */
+  release?(id: string): void;
   /** A drag ended with Escape; without it, Escape does nothing. */
   dropDrag?(id: string): void;
   trouble(text: string): void;
@@ -79,6 +84,7 @@ export class Stage {
   private readonly still = window.matchMedia('(prefers-reduced-motion: reduce)');
   private readonly parts: StagePart[] = [];
   private bodies: BodyView[] = [];
+  private crowd: CrowdView | null = null;
   private points: PointsView | null = null;
   private readonly drags: HandleDrag | null;
   private words: StageWords | null = null;
@@ -98,8 +104,11 @@ export class Stage {
     this.element = el('div', {class: 'stage'}, canvas, this.labels.element);
     this.drags = listener.drag ? new HandleDrag(this.renderer, this.handles,
       (id, p_in_world, phase) => listener.drag!(id, p_in_world, phase),
-      listener.dropDrag ? (id) => listener.dropDrag!(id) : undefined) : null;
-    canvas.addEventListener('dblclick', () => this.reset());
+      {giveUp: listener.dropDrag && ((id) => listener.dropDrag!(id)),
+        release: listener.release && ((id) => listener.release!(id))}) : null;
+    canvas.addEventListener('dblclick', () => {
+      if (!this.drags?.hasReleased) this.reset();
+    });
     theme.onChange(() => this.paint());
     this.paint();
   }
@@ -107,13 +116,16 @@ export class Stage {
   /** `poses`: one per skeleton; without them, frames have rotations of joints. */
   setScene(words: StageWords, poses?: readonly Pose[]): void {
     for (const body of this.bodies) body.dispose();
+    this.crowd?.dispose();
+    const isCrowd = words.skeletons.length > MOST_SINGLE_BODIES &&
+      words.skeletons.every(({skin}) => skin === null);
     if (this.points) this.points.object.removeFromParent();
     this.points?.dispose();
     this.words = words;
     this.floor.height_m = words.floor?.height_m ?? 0;
     this.bodies = words.skeletons.map((skeleton, i) => {
       const body = new BodyView(skeleton, poses?.[i] ?? new PosedSkeleton(skeleton), this.shown,
-        this.floor.height_m, this.options.solid ?? false, i === this.options.ghost);
+        this.floor.height_m, this.options.solid ?? false, i === this.options.ghost, isCrowd);
       if (skeleton.skin && this.options.load_skin) {
         void body.dress(this.options.load_skin, (trouble) => {
           if (trouble) this.listener.trouble(trouble);
@@ -123,6 +135,9 @@ export class Stage {
       this.renderer.scene.add(body.object);
       return body;
     });
+    this.crowd = isCrowd ? new CrowdView(this.bodies.map(({pose, words: {offset_m}}) =>
+      ({pose, offset_m}))) : null;
+    if (this.crowd) this.renderer.scene.add(this.crowd.object);
     this.rig.set(words.cameras, this.options.pyramid_m);
     this.points = words.points ? new PointsView(words.points.labels) : null;
     if (this.points) this.renderer.scene.add(this.points.object);
@@ -144,9 +159,18 @@ export class Stage {
     this.renderer.invalidate();
   }
 
+  /** Moves the targets of a running scene. */
+  setTargets(p_in_world: readonly Vector[], held: readonly boolean[]): void {
+    this.handles.setTargets(p_in_world, held, this.drags?.inHand ?? null);
+    this.renderer.invalidate();
+  }
+
   /** Shows this instant. Precondition: it belongs to the scene set last. */
   show(frame: SceneFrame): void {
-    this.bodies.forEach((body, i) => body.update(frame.skeletons[i]));
+    this.bodies.forEach((body, i) => {
+      body.update(frame.skeletons[i]);
+      this.crowd?.update(i, body.object.visible, this.floor.height_m);
+    });
     this.takeAlong();
     if (!this.framed && this.first()) {
       this.frameBodies(true, this.firstAzimuth());
@@ -263,7 +287,7 @@ export class Stage {
   }
 
   private paint(): void {
-    for (const part of [this.floor, this.rig, this.handles, this.points, ...this.bodies,
+    for (const part of [this.floor, this.rig, this.handles, this.points, this.crowd, ...this.bodies,
       ...this.parts]) {
       part?.paint(this.theme);
     }
@@ -308,7 +332,7 @@ export class Stage {
     const {labels, renderer: {camera, width, height}, words} = this;
     labels.begin(width, height);
     if (this.shown.names && words) {
-      for (const body of this.bodies) {
+      for (const body of this.crowd ? [] : this.bodies) {
         if (!body.object.visible || body.isGhost) continue;
         const [dx, dy, dz] = body.words.offset_m;
         const p = body.pose.p_in_world;
