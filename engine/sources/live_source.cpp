@@ -14,6 +14,8 @@ constexpr double kLiveLn2 = 0.69314718055994530942;
 // A group that gave way keeps this share, so that it shows the source where nothing else
 // plays, and no posture jumps when the share returns.
 constexpr float kLeastShare = 1e-6F;
+// Times closer than this are the same: the clocks of caller and engine round differently.
+constexpr double kSame_s = 1e-9;
 
 // One step of x(t) = (x + (v + x y) t) e^(-y t).
 template <class Number>
@@ -81,10 +83,13 @@ void LiveSource::take_data(double time_s, double step_s) {
   const bool after_gap = is_shown_ && newest_.time_s - shown_data_s_ > options_.gap_s &&
                          time_s - step_s - shown_data_s_ > 0.5 * options_.gap_s;
   const auto half_life_s = static_cast<float>(options_.extrapolate_half_life_s);
-  const double age_s = std::max(0.0, time_s - newest_.time_s);
+  double age_s = time_s - newest_.time_s;
+  if (age_s < kSame_s) age_s = 0.0;
   posture_ = newest_.posture;
   rates_ = data_rates_;
-  extrapolate(static_cast<float>(age_s), half_life_s, rates_, posture_);
+  if (age_s > 0.0) {
+    extrapolate(static_cast<float>(age_s), half_life_s, rates_, posture_);
+  }
   const double gone_s = decayed_s(age_s, options_.extrapolate_half_life_s);
   const double left = std::exp2(-age_s / options_.extrapolate_half_life_s);
   const RootPlace before = root_;
@@ -179,7 +184,7 @@ void LiveSource::step(double time_s, double step_s) {
 void LiveSource::sample(double time_s, BlendPosture& out) const {
   out = out_;
   const double by_s = ahead_s(time_s);
-  if (by_s != 0.0) move_posture(out_rates_, static_cast<float>(by_s), out);
+  if (std::abs(by_s) > kSame_s) move_posture(out_rates_, static_cast<float>(by_s), out);
 }
 
 RootPlace LiveSource::root_step(double from_s, double to_s) const {

@@ -110,18 +110,21 @@ void LeadPhase::observe(double time_s, unsigned bears) {
     const bool now = (bears >> (2 * foot) & 3U) != 0U;
     if (bore || !now) continue;
     const double since_s = time_s - last_s_;
-    const bool in_turn = last_foot_ == 1 - foot && since_s < kMostStep_s;
-    // The same landing, seen twice.
-    if (last_foot_ == foot && since_s < kLeastStep_s) continue;
-    landings_ = in_turn ? landings_ + 1 : 1;
-    if (in_turn) step_s_[last_foot_] = std::max(since_s, kLeastStep_s);
+    if (last_foot_ == foot) {
+      // The same landing, seen twice.
+      if (since_s < kLeastStep_s) continue;
+      step_s_[0].reset();
+      step_s_[1].reset();
+    } else if (last_foot_ >= 0 && since_s < kMostStep_s) {
+      step_s_[last_foot_] = std::max(since_s, kLeastStep_s);
+    }
     last_foot_ = foot;
     last_s_ = time_s;
   }
 }
 
 std::optional<double> LeadPhase::phase(double time_s) const {
-  if (landings_ < 3 || !step_s_[last_foot_]) return std::nullopt;
+  if (last_foot_ < 0 || !step_s_[last_foot_]) return std::nullopt;
   const double share = (time_s - last_s_) / *step_s_[last_foot_];
   if (share > 1.5) return std::nullopt;
   // The phase waits for a landing that is late.

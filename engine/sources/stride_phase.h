@@ -31,6 +31,11 @@ class LeadPhase {
   /// Takes the parts of the feet that bear (bits by ClipFootPart) at a time.
   /// Precondition: times ascend.
   void observe(double time_s, unsigned bears);
+  /// The feet were not observed for a while: the phase is unknown until the next landing.
+  void interrupt() {
+    is_known_ = false;
+    last_foot_ = -1;
+  }
   /// Returns the phase at a time, from the last landing on; nullopt: not known before the
   /// third landing in turn, nor when the next one is late by more than half of a step.
   [[nodiscard]] std::optional<double> phase(double time_s) const;
@@ -38,8 +43,7 @@ class LeadPhase {
  private:
   bool is_known_ = false;
   unsigned bears_ = 0;
-  int landings_ = 0;  ///< In turn.
-  int last_foot_ = -1;
+  int last_foot_ = -1;  ///< Foot that landed last; -1: none.
   double last_s_ = 0.0;
   /// Time from the landing of this foot to that of the other one.
   std::optional<double> step_s_[2]{};

@@ -10,7 +10,7 @@ namespace {
 
 // Time constants of a follower's rate: while it keeps step, and on its way back to the
 // rate that was asked for. [s]
-constexpr double kLockedLag_s = 0.05;
+constexpr double kLockedLag_s = 0.1;
 constexpr double kFreeLag_s = 0.3;
 // Actions with a smaller share of the greatest priority on the legs do not follow.
 constexpr float kLeastLegShare = 0.05F;
@@ -47,15 +47,15 @@ void LivePlayer::follow(Follower& by,
   const auto lead = lead_phase(from_s);
   const auto own = lead ? stride_phase(clip, source_s) : std::nullopt;
   if (!own && !by.is_locked) return;
-  double wanted = action.rate;
+  if (!by.is_locked) by.rate = action.warp.rate(from_s);
+  // A performer who is lost is thought to go on at his tempo.
+  double wanted = source_.report().is_lost ? by.rate : action.rate;
   if (own) {
-    if (!by.is_locked) {
-      by.is_locked = true;
-      by.rate = action.warp.rate(from_s);
-      by.lock.start(clip.duration_s() / count_strides(clip), action.rate);
-    }
+    if (!by.is_led) by.lock.start(clip.duration_s() / count_strides(clip), by.rate);
+    by.is_locked = true;
     wanted = by.lock.step(from_s, *lead, *own);
   }
+  by.is_led = own.has_value();
   const double lag_s = own ? kLockedLag_s : kFreeLag_s;
   by.rate += (wanted - by.rate) * -std::expm1(-step_s / lag_s);
   by.rate = std::clamp(by.rate, kMinWarpRate, kMaxWarpRate);
@@ -72,7 +72,9 @@ void LivePlayer::step(double time_s,
                       std::span<Action> actions) {
   if (!source_.has_data()) return;
   source_.step(time_s, step_s);
-  if (!has_observed_ || source_.newest_s() > observed_s_) {
+  if (source_.report().is_lost) {
+    phase_.interrupt();
+  } else if (!has_observed_ || source_.newest_s() > observed_s_) {
     phase_.observe(source_.newest_s(), source_.bears());
     observed_s_ = source_.newest_s();
     has_observed_ = true;

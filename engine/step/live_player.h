@@ -49,7 +49,8 @@ class LivePlayer {
  private:
   struct Follower {
     ActionId id{};
-    bool is_locked = false;
+    bool is_locked = false;  ///< Its rate is not yet its own again.
+    bool is_led = false;     ///< The last step had a phase.
     double rate = 1.0;
     PhaseLock lock;
   };

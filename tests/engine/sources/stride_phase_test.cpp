@@ -78,6 +78,18 @@ TEST(LeadPhase, ForgetsAPerformerWhoStands) {
   EXPECT_FALSE(lead.phase(200 / 60.0 + 1.0));
 }
 
+TEST(LeadPhase, ReturnsWithALandingAfterAnInterruption) {
+  const MadePerformer performer;
+  LeadPhase lead;
+  for (int i = 0; i < 200; ++i) lead.observe(i / 60.0, performer.at(i / 60.0).bears);
+  lead.interrupt();
+  EXPECT_FALSE(lead.phase(200 / 60.0));
+  for (int i = 263; i < 300; ++i) lead.observe(i / 60.0, performer.at(i / 60.0).bears);
+  const double truth = *stride_phase(made_clip("walk"), performer.start_s + 300 / 60.0);
+  ASSERT_TRUE(lead.phase(300 / 60.0));
+  EXPECT_NEAR(std::remainder(*lead.phase(300 / 60.0) - truth, 1.0), 0.0, 0.04);
+}
+
 TEST(LeadPhase, IsUnknownForHopsOnOneFoot) {
   LeadPhase lead;
   for (int i = 0; i < 200; ++i) {
