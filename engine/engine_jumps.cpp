@@ -70,7 +70,7 @@ Result<JumpFeasibility> Engine::ask(CharacterId character, const JumpWish& wish)
     return out;
   }
   out.reachable = true;
-  out.apex_m = plan->apex_m();
+  out.apex_m = plan->apex_m() - (*body)->captured().takeoff_feet_in_world.y;
   const double landing_s =
       plan->touchdown() ? plan->touchdown()->time_s : plan->takeoff().time_s;
   out.duration_s = landing_s / action->rate;

@@ -127,6 +127,8 @@ struct SceneRun::State {
     return !rounds.empty() && rounds[body] < rounds[order.back()];
   }
   void keep_step();
+  /// Limits the figures to the recorded steps, so that no event outside counts.
+  void limit_figures() const;
 
   SceneRunInput input;
   engine::Engine engine;
@@ -138,6 +140,7 @@ struct SceneRun::State {
   std::vector<std::size_t> rounds{};
   std::vector<std::size_t> order{};
   mutable StageRecord record{};
+  bool has_forgotten = false;
   double spent_ms = 0.0;
   std::size_t steps = 0;
 };
@@ -164,6 +167,16 @@ void SceneRun::State::keep_step() {
       return u.target == track.target && u.user == track.body;
     });
     track.p_in_world.push_back(places.in_world(*use, engine.time_s(), engine));
+  }
+}
+
+void SceneRun::State::limit_figures() const {
+  constexpr double kAfter_s = 1e-6;  // An event at the begin was in the record before.
+  for (std::size_t f = 0; f < record.scene.figures.size(); ++f) {
+    const SceneFigure& given = input.scene.figures[f];
+    SceneFigure& limited = record.scene.figures[f];
+    limited.from_s = std::max(given.from_s, record.begin_s + kAfter_s);
+    limited.to_s = std::min(given.to_s.value_or(engine.time_s()), engine.time_s());
   }
 }
 
@@ -279,8 +292,29 @@ const StageRecord& SceneRun::record() const {
   MAREY_ASSERT(s.input.records);
   s.record.actions = s.script->runs();
   s.record.throws = s.script->throws();
+  if (s.has_forgotten) s.limit_figures();
   s.record.mean_step_ms = s.steps == 0 ? 0.0 : s.spent_ms / static_cast<double>(s.steps);
   return s.record;
+}
+
+double SceneRun::recorded_from_s() const {
+  return state_->record.begin_s;
+}
+
+void SceneRun::forget_steps() {
+  State& s = *state_;
+  MAREY_ASSERT(s.input.records);
+  for (StageTrack& track : s.record.tracks) {
+    track.poses.clear();
+    track.references.clear();
+    track.stands.clear();
+    track.floor_moved_m.clear();
+  }
+  for (StageTargetTrack& track : s.record.targets) track.p_in_world.clear();
+  s.record.begin_s = time_s();
+  s.has_forgotten = true;
+  s.spent_ms = 0.0;
+  s.steps = 0;
 }
 
 const std::vector<Error>& SceneRun::problems() const {

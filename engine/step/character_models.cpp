@@ -69,11 +69,14 @@ void CharacterPlayer::move_throws(double time_s, double step_s) {
 }
 
 void CharacterPlayer::steer_root(double time_s, double step_s) {
+  steered_rad_ = 0.0;
   if (!steer_) return;
   std::array<bool, 2> bears{};
   for (std::size_t side = 0; side < 2; ++side)
     bears[side] = bore_[side][0] || bore_[side][1];
+  const double before_rad = blend_.root().heading_rad;
   steer_->step(time_s, step_s, ankle_xz_m_, bears, blend_);
+  steered_rad_ = blend_.root().heading_rad - before_rad;
 }
 
 void CharacterPlayer::move_hands(double time_s, double step_s) {

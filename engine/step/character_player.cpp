@@ -143,6 +143,7 @@ FootReference CharacterPlayer::foot_reference(std::size_t side, double time_s) c
   out.world_from_t_pose = retarget::rotation_from_t_pose(*map_, world_from_joint_, joint);
   out.heel_bears = bore_[side][0];
   out.ball_bears = bore_[side][1];
+  out.steered_rad = steered_rad_;
   if (!out.heel_bears && !out.ball_bears) {
     out.landing = next_landing(blend_, side, time_s, foot_options_.land_s);
     if (out.landing) out.landing->ankle_in_world.y += floor_.lift_m();

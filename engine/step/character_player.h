@@ -206,6 +206,7 @@ class CharacterPlayer {
   };
   std::vector<PreparedJump> jumps_;
   std::unique_ptr<SteerPlayer> steer_;
+  double steered_rad_ = 0.0;                  ///< In this step.
   BodyShift shift_;                           ///< After the last step.
   std::vector<RigidTransform> shown_joints_;  ///< After the last step, for follows.
   double time_s_ = 0.0;
