@@ -3,6 +3,7 @@
 #include "app/stage/stage_results.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <system_error>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "recordings/base/atomic_file.h"
 #include "recordings/base/atomic_folder.h"
 #include "recordings/gltf/gltf.h"
+#include "retarget/feet/floor_at.h"
 
 namespace marey::app {
 namespace {
@@ -89,6 +91,36 @@ StageJson throw_json(const StageRecord& record, const StageThrow& thrown) {
     out["measured"][kNames[i]] = thrown.measured[i];
   }
   return out;
+}
+
+StageJson point_json(const glm::dvec3& p) {
+  return StageJson::array({p.x, p.y, p.z});
+}
+
+// A picture's camera, and the corners of the floor's parts at its time.
+StageJson picture_json(const StageRecord& record, const ScenePicture& picture) {
+  StageJson floor = StageJson::array();
+  for (std::size_t i = 0; i < record.floor.parts.size(); ++i) {
+    const FloorPart& part = record.floor.parts[i];
+    const glm::dvec3 moved_m = retarget::moved_at(part, picture.time_s);
+    StageJson corners = StageJson::array();
+    for (const std::array<bool, 2> far : {std::array{false, false},
+                                          std::array{true, false},
+                                          std::array{true, true},
+                                          std::array{false, true}}) {
+      const glm::dvec2 xz((far[0] ? part.max_xz_m : part.min_xz_m).x + moved_m.x,
+                          (far[1] ? part.max_xz_m : part.min_xz_m).y + moved_m.z);
+      const double y = retarget::plane_at(record.floor, i, xz, picture.time_s).height_m;
+      corners.push_back(point_json({xz.x, y, xz.y}));
+    }
+    floor.push_back(std::move(corners));
+  }
+  return {{"time_s", picture.time_s},
+          {"camera_m", point_json(picture.camera_in_world)},
+          {"looks_at_m", point_json(picture.looks_at_in_world)},
+          {"width_px", picture.width_px},
+          {"height_px", picture.height_px},
+          {"floor_m", std::move(floor)}};
 }
 
 std::string bounds_of(const SceneFigure& figure) {
@@ -182,6 +214,10 @@ nlohmann::ordered_json stage_json(const StageResult& result) {
   out["throws"] = StageJson::array();
   for (const StageThrow& thrown : record.throws) {
     out["throws"].push_back(throw_json(record, thrown));
+  }
+  out["pictures"] = StageJson::array();
+  for (const ScenePicture& picture : record.scene.out.pictures) {
+    out["pictures"].push_back(picture_json(record, picture));
   }
   out["problems"] = StageJson::array();
   for (const Error& problem : result.problems) {
