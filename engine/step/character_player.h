@@ -13,6 +13,7 @@
 
 #include "engine/feet/floor_level.h"
 #include "engine/feet/foot_hold.h"
+#include "engine/feet/lead_legs.h"
 #include "engine/feet/root_pull.h"
 #include "engine/step/blend_player.h"
 #include "engine/step/reach_player.h"
@@ -94,9 +95,11 @@ class CharacterPlayer {
   [[nodiscard]] const Character& character() const { return *character_; }
   [[nodiscard]] const retarget::BodyMap& map() const { return *map_; }
   [[nodiscard]] const Pose& pose() const { return pose_; }
-  /// Height by which the blend is lifted to the floor.
-  [[nodiscard]] double lift_m() const { return floor_.lift_m(); }
-  /// The posture before feet and constraints.
+  /// Hips of the blend on the floor, before feet and constraints move them.
+  [[nodiscard]] const glm::dvec3& blend_hips_in_world() const {
+    return blend_hips_in_world_;
+  }
+  /// The posture before constraints, with its feet where they stand.
   [[nodiscard]] const Pose& reference() const { return reference_; }
   [[nodiscard]] std::span<const RigidTransform> world_from_joint() const;
   [[nodiscard]] const CharacterReport& report() const { return report_; }
@@ -117,10 +120,15 @@ class CharacterPlayer {
   CharacterPlayer(std::shared_ptr<const MotionBase> base,
                   CharacterSpec spec,
                   retarget::Adapter adapter);
-  [[nodiscard]] FootReference foot_reference(std::size_t side, double time_s) const;
+  void expand();
+  void observe_bearing(double time_s);
   void meet_floor(double step_s);
+  [[nodiscard]] FootReference foot_reference(std::size_t side,
+                                             const LedFoot& foot,
+                                             double time_s) const;
   void hold_feet(double time_s, double step_s);
-  void lead_feet(const std::array<FootHold::Place, 2>& places, double share);
+  void lead_feet();
+  void forget_feet();
   void steer_root(double time_s, double step_s);
   void move_throws(double time_s, double step_s);
   void move_hands(double time_s, double step_s);
@@ -143,6 +151,11 @@ class CharacterPlayer {
   std::array<FootHold, 2> feet_{};
   FloorLevel floor_;
   RootPull pull_;
+  BlendPosture posture_;                 ///< The blend on the floor, with its feet led.
+  RootPlace root_;                       ///< Its place.
+  glm::dvec3 blend_hips_in_world_{0.0};  ///< Before the feet lower the hips.
+  std::array<LedFoot, 2> led_{};
+  std::array<double, 2> stand_share_{};
   std::array<glm::dvec2, 2> ankle_xz_m_{};     ///< As the feet stood in the last step.
   std::array<std::array<bool, 2>, 2> bore_{};  ///< [foot][heel, ball], with hysteresis.
   retarget::NormalizedPose normalized_;

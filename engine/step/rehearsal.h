@@ -62,9 +62,13 @@ class Rehearsal {
   const retarget::BodyMap* map_;
   retarget::NormalizedPose normalized_;
   std::vector<RigidTransform> joints_;
+  std::vector<RigidTransform> led_joints_;
   Pose pose_;
   Pose adapted_;
+  BlendPosture posture_;
   RootPlace root_;
+  PostureLayout layout_;
+  Rig rig_;
 };
 
 /// Returns place and heading of the hips of a posed body.
