@@ -97,6 +97,10 @@ class BlendPlayer {
   /// Share with which feet, and not the blend alone, move the root: 1 in transitions of
   /// the legs, 0 without.
   [[nodiscard]] double anchored() const;
+  /// True if feet will move the root at a time.
+  [[nodiscard]] bool anchors_at(double time_s) const {
+    return options_.anchors_root && time_s <= transition_end_s_;
+  }
 
   /// The action with the greatest weight on the legs; nullptr: none, or a live source,
   /// which has no clip.
