@@ -88,6 +88,7 @@ class FootHold {
 
   bool is_known_ = false;
   Mode mode_ = Mode::kFree;
+  bool on_ball_ = false;  ///< It stands on its ball, in kFlat on its ball or its ankle.
   bool slipped_ = false;  ///< Not to bear again before the reference leaves the floor.
   double since_change_s_ = 0.0;
   double fade_s_ = 0.1;  ///< Duration of the fade that began with the last change.
@@ -97,7 +98,7 @@ class FootHold {
   /// Rotation vector in the world: from the reference, or in kFlat from the standing
   /// rotation. [rad]
   Motion2<glm::dvec3> turn_;
-  glm::dvec3 stands_in_world_{0.0};  ///< Ankle, or ball in kBall.
+  glm::dvec3 stands_in_world_{0.0};  ///< Ankle, or ball if on_ball_.
   glm::dquat stands_rotation_{1.0, 0.0, 0.0, 0.0};
   // Reference and result of the last step, with their velocities by differences.
   Place last_reference_;

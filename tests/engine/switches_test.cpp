@@ -55,7 +55,8 @@ SwitchFigures play_switch(const Skeleton& body, const std::string& to, int at) {
   SwitchFigures out;
   std::optional<ActionId> next;
   std::array<int, 2> stood{};
-  std::array<glm::dvec3, 2> before{};
+  std::array<glm::dvec3, 2> ball_before{};
+  std::array<glm::dvec3, 2> ankle_before{};
   for (int step = 0; step < at + 100; ++step) {
     if (step == at) {
       ActionWish wish;
@@ -66,15 +67,21 @@ SwitchFigures play_switch(const Skeleton& body, const std::string& to, int at) {
     add_pose(player, out);
     for (std::size_t side = 0; side < 2; ++side) {
       const HumanBone bone = side == 0 ? HumanBone::kLeftToes : HumanBone::kRightToes;
+      const auto joints = player.world_from_joint();
       const glm::dvec3 ball =
-          player.world_from_joint()[index(*player.map().joint_of[index(bone)])]
-              .translation;
+          joints[index(*player.map().joint_of[index(bone)])].translation;
+      const glm::dvec3 ankle =
+          joints[index(player.map().leg(static_cast<int>(side)).end)].translation;
       stood[side] = player.report().stands[side] ? stood[side] + 1 : 0;
+      // A foot stands on its heel or on its ball.
       if (stood[side] > 12) {
         out.slide_m_s =
-            std::max(out.slide_m_s, kSwitchHz * glm::distance(ball, before[side]));
+            std::max(out.slide_m_s,
+                     kSwitchHz * std::min(glm::distance(ball, ball_before[side]),
+                                          glm::distance(ankle, ankle_before[side])));
       }
-      before[side] = ball;
+      ball_before[side] = ball;
+      ankle_before[side] = ankle;
     }
     if (next && action_of(player, *next).fade(engine.time_s()) < 0.9) {
       out.settled_s = (step - at + 1) / kSwitchHz;
