@@ -194,6 +194,9 @@ void CharacterPlayer::step(double time_s, double step_s) {
   }
   hold_feet(time_s, step_s);
   expand();
+  // Hands plan on the blend, whose hips the feet have not lowered.
+  const double drop_m = blend_hips_in_world_.y - reference_.root_in_world.y;
+  for (RigidTransform& joint : world_from_joint_) joint.translation.y += drop_m;
   // Before the feet, because a throw poses the body at other times.
   move_throws(time_s, step_s);
   lead_feet();
