@@ -81,9 +81,15 @@ void compare_with_truth(const LoopClip& loop,
   if (frame < (out.cycles - 1) * loop.cycle_frames()) return;
   const LoopPlaces played = places_of(loop.motion.skeleton, pose);
   const LoopPlaces expected = places_of(loop.motion.skeleton, truth);
+  const auto error_of_mm = [&](std::size_t j) {
+    return 1e3 * glm::length(played[j] - expected[j] - error_m);
+  };
   for (std::size_t j = 0; j < played.size(); ++j) {
-    out.posture_error_mm = std::max(out.posture_error_mm,
-                                    1e3 * glm::length(played[j] - expected[j] - error_m));
+    out.posture_error_mm = std::max(out.posture_error_mm, error_of_mm(j));
+  }
+  for (const auto& joint : loop.map.joint_of) {
+    if (!joint) continue;
+    out.bone_error_mm = std::max(out.bone_error_mm, error_of_mm(index(*joint)));
   }
 }
 

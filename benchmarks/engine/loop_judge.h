@@ -48,7 +48,10 @@ struct LoopFigures {
   /// those of the clip moved by as many whole cycles. [mm]
   double path_error_mm = 0.0;
   double heading_error_deg = 0.0;  ///< The same of the yaw of the hips.
-  /// Largest distance of a joint from the clip's in the last cycle, hips on hips. [mm]
+  /// Largest distance of the joint of a named bone (BodyMap) from the clip's in the last
+  /// cycle, hips on hips. Postures of the engine have these alone.
+  double bone_error_mm = 0.0;
+  /// The same of all joints and tips. [mm]
   double posture_error_mm = 0.0;
   /// Largest acceleration of a joint or tip in the last cycle: in the frame at the seam
   /// and its two neighbours, and in all other frames. [m/s^2]

@@ -261,6 +261,7 @@ void add_loops(const TransitionClip& clip, ResultTable& table) {
                           static_cast<double>(loop->cycle_frames()),
                           figures.path_error_mm,
                           figures.heading_error_deg,
+                          figures.bone_error_mm,
                           figures.posture_error_mm,
                           figures.seam_m_s2,
                           figures.inner_m_s2});
@@ -275,7 +276,8 @@ ResultTable loop_table(const TransitionClips& clips) {
                      {"frames each", 0},
                      {"path error mm", 4},
                      {"heading error deg", 5},
-                     {"posture error mm", 4},
+                     {"joints of bones mm", 4},
+                     {"all joints, tips mm", 4},
                      {"seam m/s^2", 1},
                      {"inner m/s^2", 1}},
                     {},

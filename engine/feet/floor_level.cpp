@@ -10,8 +10,9 @@ double FloorLevel::step(std::optional<double> sole_height_m,
                         double max_m,
                         double step_s) {
   const bool counts = sole_height_m && std::abs(*sole_height_m + lift_m_) <= max_m;
-  if (counts && !is_known_) {
-    is_known_ = true;
+  const bool is_first = !is_known_;
+  is_known_ = true;
+  if (counts && is_first) {
     lift_m_ = -*sole_height_m;
     return lift_m_;
   }

@@ -20,8 +20,8 @@ class FloorLevel {
   /// Returns the displacement after a step [m]. `sole_height_m`: height of the lowest
   /// bearing sole of the blend above the floor, without this displacement; nullopt: no
   /// foot bears. A foot whose sole is still more than `max_m` from the floor after the
-  /// displacement does not count. The first foot is met at once. Precondition: step_s >
-  /// 0.
+  /// displacement does not count. A foot that bears in the first step is met at once.
+  /// Precondition: step_s > 0.
   double step(std::optional<double> sole_height_m, double max_m, double step_s);
 
   [[nodiscard]] double lift_m() const { return lift_m_; }

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
+#include "core/transform.h"
 
 namespace marey::engine {
 namespace {
@@ -15,6 +16,10 @@ namespace {
 // Distance in which a foot of velocity v stops by a quintic of duration T, over v T: it
 // does not turn back from 1/3 on.
 constexpr double kStopShare = 0.4;
+// A foot that is tilted more than this when its heel bears again, too, becomes flat, in
+// this time.
+constexpr double kTilted_rad = 0.35;
+constexpr double kHeelDown_s = 0.15;
 
 glm::dvec3 rotation_vector(const glm::dquat& q) {
   const glm::dquat p = q.w < 0.0 ? -q : q;
@@ -97,7 +102,12 @@ void FootHold::change(Mode mode,
                       const retarget::FootMap& foot,
                       const FootHoldOptions& options) {
   const glm::dquat& rotation = last_place_.world_from_t_pose;
+  const glm::dquat flat = twist_about(rotation, {0.0, 1.0, 0.0});
+  const glm::dvec3 tilt_rad = turn_between(flat, rotation);
+  const bool comes_down =
+      mode == Mode::kFlat && mode_ == Mode::kBall && glm::length(tilt_rad) > kTilted_rad;
   if (mode == Mode::kFree) {
+    on_ball_ = false;
     release(options);
   } else if (mode == Mode::kBall) {
     const glm::dvec3 ball = rotation * foot.ball_from_ankle_in_t_pose;
@@ -105,11 +115,19 @@ void FootHold::change(Mode mode,
           place_motion_.rate + glm::cross(place_spin_rad_s_, ball),
           foot.ball_height_m,
           options);
-  } else if (mode_ != Mode::kHeel && mode_ != Mode::kFlat) {
+    on_ball_ = true;
+  } else if (comes_down) {
+    // The heel comes down about the ball.
+    fade_s_ = kHeelDown_s;
+  } else if ((mode_ != Mode::kHeel && mode_ != Mode::kFlat) || on_ball_) {
+    on_ball_ = false;
     stand(last_place_.ankle_in_world, place_motion_.rate, foot.ankle_height_m, options);
   }
   // Otherwise heel and flat foot stand on the same point.
-  if (mode == Mode::kFlat) {
+  if (comes_down) {
+    stands_rotation_ = flat;
+    turn_ = {tilt_rad, place_spin_rad_s_, glm::dvec3(0.0)};
+  } else if (mode == Mode::kFlat) {
     const glm::dvec3 onward = (kStopShare * options.brake_s) * place_spin_rad_s_;
     stands_rotation_ = glm::normalize(rotation_by(onward) * rotation);
     turn_ = {-onward, place_spin_rad_s_, glm::dvec3(0.0)};
@@ -214,7 +232,7 @@ FootHold::Place FootHold::step(const FootReference& reference,
   } else {
     fade(displacement_, {}, fade_s_ - since_change_s_, step_s);
     place.ankle_in_world = stands_in_world_ + displacement_.value;
-    if (mode_ == Mode::kBall) {
+    if (on_ball_) {
       place.ankle_in_world -= place.world_from_t_pose * foot.ball_from_ankle_in_t_pose;
     }
   }

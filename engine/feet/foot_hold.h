@@ -91,6 +91,7 @@ class FootHold {
 
   bool is_known_ = false;
   Mode mode_ = Mode::kFree;
+  bool on_ball_ = false;  ///< It stands on its ball, in kFlat on its ball or its ankle.
   bool slipped_ = false;  ///< Not to bear again before the reference leaves the floor.
   double since_change_s_ = 0.0;
   double fade_s_ = 0.1;  ///< Duration of the fade that began with the last change.
@@ -102,7 +103,7 @@ class FootHold {
   Motion2<glm::dvec3> turn_;
   double steered_rad_s_ = 0.0;
   double held_yaw_rad_ = 0.0;  ///< In kHeel and kBall: from the reference, before turn_.
-  glm::dvec3 stands_in_world_{0.0};  ///< Ankle, or ball in kBall.
+  glm::dvec3 stands_in_world_{0.0};  ///< Ankle, or ball if on_ball_.
   glm::dquat stands_rotation_{1.0, 0.0, 0.0, 0.0};
   // Reference and result of the last step, with their velocities by differences.
   Place last_reference_;

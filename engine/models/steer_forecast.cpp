@@ -10,7 +10,7 @@
 namespace marey::engine {
 namespace {
 
-constexpr double kFullTurn_rad = 2.0 * 3.14159265358979323846;
+constexpr double kWholeTurn_rad = 2.0 * 3.14159265358979323846;
 
 // The moment of the next step, after a move.
 SteerMoment after(const SteerScene& scene,
@@ -86,7 +86,7 @@ SteerForecast forecast(const SteerScene& scene,
   const double limit_rad = max_turn_of(scene, scene.travel->mean_alone_s);
   const int max_steps =
       scene.travel->travels
-          ? 10 + static_cast<int>(1.3 * kFullTurn_rad / std::max(limit_rad, 0.05))
+          ? 10 + static_cast<int>(1.3 * kWholeTurn_rad / std::max(limit_rad, 0.05))
           : 200;
   SteerMoment moment = start;
   SteerStrategy rest = strategy;

@@ -248,6 +248,7 @@ bool BlendPlayer::predict(double now_s,
   step.z_m += sum(root_offset_.z_m, root_offset_rate_.z_m);
   step.heading_rad += sum(root_offset_.heading_rad, root_offset_rate_.heading_rad);
   root = moved(root_, step);
+  posture.height_legs += static_cast<float>(lift_m_ / rig_.leg_length_m);
   return true;
 }
 

@@ -72,6 +72,9 @@ class BlendPlayer {
 
   [[nodiscard]] const BlendPosture& posture() const { return shown_; }
   [[nodiscard]] const RootPlace& root() const { return root_; }
+  /// Lifts predicted postures, not posture(). [m]
+  void set_lift(double lift_m) { lift_m_ = lift_m; }
+  [[nodiscard]] double lift_m() const { return lift_m_; }
   /// Predicts posture and root at a later time if nothing changes: from the clips at
   /// their present warps and the offsets as they decay. False: nothing plays. Allocates
   /// nothing.
@@ -95,6 +98,10 @@ class BlendPlayer {
   /// Share with which feet, and not the blend alone, move the root: 1 in transitions of
   /// the legs, 0 without.
   [[nodiscard]] double anchored() const;
+  /// True if feet will move the root at a time.
+  [[nodiscard]] bool anchors_at(double time_s) const {
+    return options_.anchors_root && time_s <= transition_end_s_;
+  }
 
   /// The action with the greatest weight on the legs; nullptr: none, or a live source,
   /// which has no clip.
@@ -171,6 +178,7 @@ class BlendPlayer {
   RootPlace root_offset_;  ///< Decaying velocity that remains of a break.
   RootPlace root_offset_rate_;
   RootAnchor anchor_;
+  double lift_m_ = 0.0;
   double delay_s_ = 0.0;          ///< Until the fade of the action that begins.
   double anchor_strength_ = 0.0;  ///< 0 to 1, before smoothing.
   double transition_end_s_ = -1.0;

@@ -86,7 +86,6 @@ void CharacterPlayer::move_hands(double time_s, double step_s) {
                               step_s,
                               blend_,
                               world_from_joint_,
-                              shift_.lift_m,
                               *reach_handles_[2 * side],
                               *reach_handles_[2 * side + 1])) {
       reaches_[side].reset();

@@ -6,9 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/feet/leg_reach.h"
-#include "engine/step/landing.h"
-
 #include "core/base/smooth_step.h"
 #include "retarget/body/normalized_skeleton.h"
 #include "retarget/body/rotation_from_t_pose.h"
@@ -23,10 +20,6 @@ constexpr std::array<const char*, 2> kTurnIds{"reach turn left", "reach turn rig
 constexpr std::array<HumanBone, 2> kFootBones{HumanBone::kLeftFoot,
                                               HumanBone::kRightFoot};
 constexpr double kLevelFade_s = 0.2;
-// Hips joints are up to 0.12 legs above the hip centres, or at their height: a clip of
-// one such body is that much too high on the other.
-constexpr double kMaxLift_legs = 0.2;
-constexpr double kMostDrop_m = 0.03;
 
 Constraint support_of(std::size_t side) {
   Constraint support;
@@ -136,115 +129,11 @@ std::span<const RigidTransform> CharacterPlayer::world_from_joint() const {
   return world_from_joint_;
 }
 
-FootReference CharacterPlayer::foot_reference(std::size_t side, double time_s) const {
-  const JointIndex joint = *map_->joint_of[index(kFootBones[side])];
-  FootReference out;
-  out.ankle_in_world = world_from_joint_[index(joint)].translation;
-  out.world_from_t_pose = retarget::rotation_from_t_pose(*map_, world_from_joint_, joint);
-  out.heel_bears = bore_[side][0];
-  out.ball_bears = bore_[side][1];
-  out.steered_rad = steered_rad_;
-  if (!out.heel_bears && !out.ball_bears) {
-    out.landing = next_landing(blend_, side, time_s, foot_options_.land_s);
-    if (out.landing) out.landing->ankle_in_world.y += floor_.lift_m();
-  }
-  return out;
-}
-
-void CharacterPlayer::meet_floor(double step_s) {
-  std::optional<double> sole_m;
-  for (std::size_t side = 0; side < 2; ++side) {
-    for (std::size_t part = 0; part < 2; ++part) {
-      bool& bears = bore_[side][part];
-      bears = blend_.bears()[2 * side + part] > (bears ? kBearsUntil : kBearsAbove);
-    }
-    if (!bore_[side][0] && !bore_[side][1]) continue;
-    const JointIndex joint = *map_->joint_of[index(kFootBones[side])];
-    const retarget::FootMap& foot = map_->feet[side];
-    double height_m = world_from_joint_[index(joint)].translation.y - foot.ankle_height_m;
-    if (!bore_[side][0]) {
-      const glm::dquat turn =
-          retarget::rotation_from_t_pose(*map_, world_from_joint_, joint);
-      height_m += (turn * foot.ball_from_ankle_in_t_pose).y + foot.ankle_height_m -
-                  foot.ball_height_m;
-    }
-    sole_m = std::min(sole_m.value_or(height_m), height_m);
-  }
-  const double lift_m = smooth_step(activation_) *
-                        floor_.step(sole_m, kMaxLift_legs * map_->leg_length_m, step_s);
-  shift_.lift_m = lift_m;
-  for (RigidTransform& joint : world_from_joint_) joint.translation.y += lift_m;
-  reference_.root_in_world.y += lift_m;
-}
-
-void CharacterPlayer::hold_feet(double time_s, double step_s) {
-  const double share = smooth_step(activation_);
-  glm::dvec2 away_m(0.0);
-  double standing = 0.0;
-  std::array<FootHold::Place, 2> places{};
-  for (std::size_t side = 0; side < 2; ++side) {
-    const FootReference reference = foot_reference(side, time_s);
-    const FootHold::Place place = feet_[side].step(
-        reference, map_->feet[side], blend_.rig().leg_length_m, step_s, foot_options_);
-    places[side] = place;
-    report_.stands[side] = feet_[side].holds();
-    ankle_xz_m_[side] = {place.ankle_in_world.x, place.ankle_in_world.z};
-    shift_.feet[side].stands = report_.stands[side];
-    if (report_.stands[side]) {
-      away_m += ankle_xz_m_[side] -
-                glm::dvec2(reference.ankle_in_world.x, reference.ankle_in_world.z);
-      standing += 1.0;
-    }
-  }
-  // Acts on the next step.
-  const double pulled = share * blend_.anchored() / std::max(1.0, standing);
-  const glm::dvec2 pull_m = pull_.step(pulled * away_m, step_s);
-  RootPlace root = blend_.root();
-  root.x_m += pull_m.x;
-  root.z_m += pull_m.y;
-  blend_.place(root);
-  lead_feet(places, share);
-}
-
-// Lowers the hips as far as the legs of standing feet need it, at most kMostDrop_m, and
-// passes the feet to the adapter as far as the legs reach.
-void CharacterPlayer::lead_feet(const std::array<FootHold::Place, 2>& places,
-                                double share) {
-  const auto hip_in_world = [&](std::size_t side) {
-    return world_from_joint_[index(map_->leg(static_cast<int>(side)).upper)].translation;
-  };
-  double drop_m = 0.0;
-  for (std::size_t side = 0; side < 2; ++side) {
-    if (!report_.stands[side]) continue;
-    drop_m = std::max(drop_m,
-                      hips_drop_m(hip_in_world(side),
-                                  places[side].ankle_in_world,
-                                  map_->leg(static_cast<int>(side)).length_m()));
-  }
-  drop_m = share * kMostDrop_m * std::tanh(drop_m / kMostDrop_m);
-  for (RigidTransform& joint : world_from_joint_) joint.translation.y -= drop_m;
-  reference_.root_in_world.y -= drop_m;
-  for (std::size_t side = 0; side < 2; ++side) {
-    const FootHold::Place& place = places[side];
-    const JointIndex joint = *map_->joint_of[index(kFootBones[side])];
-    const double leg_m = map_->leg(static_cast<int>(side)).length_m();
-    const glm::dvec3 hip = hip_in_world(side);
-    const double reach_m =
-        report_.stands[side]
-            ? kMostReach * leg_m
-            : leg_reach_m(glm::distance(hip, place.ankle_in_world), leg_m);
-    const glm::dvec3 ankle = ankle_within(hip, place.ankle_in_world, reach_m);
-    StandingFoot& now = shift_.feet[side];
-    const glm::dvec3& of_blend = world_from_joint_[index(joint)].translation;
-    now.ankle_in_world = glm::mix(of_blend, ankle, share);
-    now.world_from_t_pose = glm::normalize(
-        glm::slerp(retarget::rotation_from_t_pose(*map_, world_from_joint_, joint),
-                   place.world_from_t_pose,
-                   share));
-    now.from_reference_m = now.ankle_in_world - of_blend;
-    supports_[side]->set_target(now.ankle_in_world);
-    supports_[side]->set_orientation(now.world_from_t_pose);
-  }
+void CharacterPlayer::expand() {
+  retarget::NormalizedPose normalized;
+  to_normalized(posture_, blend_.base().layout(), root_, map_->leg_length_m, normalized);
+  retarget::expand(
+      normalized, character_->skeleton, *map_, world_from_joint_, reference_);
 }
 
 void CharacterPlayer::ride_floor(double time_s, double step_s) {
@@ -259,6 +148,7 @@ void CharacterPlayer::ride_floor(double time_s, double step_s) {
   const glm::dvec3 body_m = 0.5 * share * (shifts[0].moved_m + shifts[1].moved_m);
   for (RigidTransform& joint : world_from_joint_) joint.translation += body_m;
   reference_.root_in_world += body_m;
+  blend_hips_in_world_ += body_m;
   for (std::size_t side = 0; side < 2; ++side) {
     StandingFoot& foot = shift_.feet[side];
     foot.ankle_in_world += share * shifts[side].moved_m;
@@ -292,32 +182,28 @@ bool CharacterPlayer::prepare_step(double time_s, double step_s) {
   time_s_ = time_s;
   if (!blend_.step(time_s, step_s)) return false;
   steer_root(time_s, step_s);
+  root_ = blend_.root();
   report_.transition = blend_.report();
-  retarget::NormalizedPose normalized;
-  to_normalized(blend_.posture(),
-                blend_.base().layout(),
-                blend_.root(),
-                map_->leg_length_m,
-                normalized);
-  retarget::expand(
-      normalized, character_->skeleton, *map_, world_from_joint_, reference_);
   const double change = step_s / kLevelFade_s;
   activation_ = std::clamp(
       activation_ + (level_ == DetailLevel::kBlended ? -change : change), 0.0, 1.0);
   is_adapted_ = activation_ > 0.0;
+  posture_ = blend_.posture();
   if (!is_adapted_) {
+    expand();
     pose_ = reference_;
-    feet_[0].reset();
-    feet_[1].reset();
-    floor_.reset();
-    report_.stands = {};
+    forget_feet();
     keep_shown();
     return false;
   }
-  meet_floor(step_s);
+  hold_feet(time_s, step_s);
+  expand();
+  // Hands plan on the blend, whose hips the feet have not lowered.
+  const double drop_m = blend_hips_in_world_.y - reference_.root_in_world.y;
+  for (RigidTransform& joint : world_from_joint_) joint.translation.y += drop_m;
   // Before the feet, because a throw poses the body at other times.
   move_throws(time_s, step_s);
-  hold_feet(time_s, step_s);
+  lead_feet();
   ride_floor(time_s, step_s);
   move_hands(time_s, step_s);
   move_follows(time_s, step_s);
@@ -327,8 +213,7 @@ bool CharacterPlayer::prepare_step(double time_s, double step_s) {
 
 void CharacterPlayer::finish_step() {
   const std::size_t hips = index(map_->hips());
-  shift_.hips_m = adapter().world_from_joint()[hips].translation -
-                  world_from_joint_[hips].translation;
+  shift_.hips_m = adapter().world_from_joint()[hips].translation - blend_hips_in_world_;
   keep_shown();
 }
 

@@ -14,6 +14,7 @@
 #include "engine/feet/floor_level.h"
 #include "engine/feet/floor_ride.h"
 #include "engine/feet/foot_hold.h"
+#include "engine/feet/lead_legs.h"
 #include "engine/feet/root_pull.h"
 #include "engine/models/jump_body.h"
 #include "engine/step/blend_player.h"
@@ -144,9 +145,11 @@ class CharacterPlayer {
   [[nodiscard]] const Character& character() const { return *character_; }
   [[nodiscard]] const retarget::BodyMap& map() const { return *map_; }
   [[nodiscard]] const Pose& pose() const { return pose_; }
-  /// Height by which the blend is lifted to the floor.
-  [[nodiscard]] double lift_m() const { return floor_.lift_m(); }
-  /// The posture before feet and constraints.
+  /// Hips of the blend on the floor, before feet and constraints move them.
+  [[nodiscard]] const glm::dvec3& blend_hips_in_world() const {
+    return blend_hips_in_world_;
+  }
+  /// The posture before constraints, with its feet where they stand.
   [[nodiscard]] const Pose& reference() const { return reference_; }
   [[nodiscard]] std::span<const RigidTransform> world_from_joint() const;
   [[nodiscard]] const CharacterReport& report() const { return report_; }
@@ -169,11 +172,16 @@ class CharacterPlayer {
                   CharacterSpec spec,
                   std::vector<FollowPoint> points,
                   retarget::Adapter adapter);
-  [[nodiscard]] FootReference foot_reference(std::size_t side, double time_s) const;
+  void expand();
+  void observe_bearing(double time_s);
   void meet_floor(double step_s);
+  [[nodiscard]] FootReference foot_reference(std::size_t side,
+                                             const LedFoot& foot,
+                                             double time_s) const;
   void hold_feet(double time_s, double step_s);
   void ride_floor(double time_s, double step_s);
-  void lead_feet(const std::array<FootHold::Place, 2>& places, double share);
+  void lead_feet();
+  void forget_feet();
   void steer_root(double time_s, double step_s);
   void move_throws(double time_s, double step_s);
   void move_hands(double time_s, double step_s);
@@ -215,6 +223,11 @@ class CharacterPlayer {
   std::shared_ptr<const Floor> ground_;
   FloorRide ride_;
   RootPull pull_;
+  BlendPosture posture_;                 ///< The blend on the floor, with its feet led.
+  RootPlace root_;                       ///< Its place.
+  glm::dvec3 blend_hips_in_world_{0.0};  ///< Before the feet lower the hips.
+  std::array<LedFoot, 2> led_{};
+  std::array<double, 2> stand_share_{};
   std::array<glm::dvec2, 2> ankle_xz_m_{};     ///< As the feet stood in the last step.
   std::array<std::array<bool, 2>, 2> bore_{};  ///< [foot][heel, ball], with hysteresis.
   std::vector<RigidTransform> world_from_joint_;

@@ -91,12 +91,11 @@ void FollowPlayer::drop(double time_s) {
 
 void FollowPlayer::begin(double time_s,
                          double step_s,
-                         double lift_m,
                          const BlendPlayer& blend,
                          std::span<const RigidTransform> reference,
                          std::span<const RigidTransform> posed) {
   glm::dvec3 velocity(0.0);
-  if (rehearsal_.predict(time_s, time_s - step_s, blend, lift_m)) {
+  if (rehearsal_.predict(time_s, time_s - step_s, blend)) {
     velocity = (posed_point(reference, *map_, point_) -
                 posed_point(rehearsal_.joints(), *map_, point_)) /
                step_s;
@@ -114,7 +113,7 @@ bool FollowPlayer::step(double time_s,
                         const BodyShift& shift) {
   if (!has_started_) {
     if (stops_) return false;
-    begin(time_s, step_s, shift.lift_m, blend, reference, posed);
+    begin(time_s, step_s, blend, reference, posed);
     carries_m_ = shift.hips_m;
   }
   const FollowState& state = course_.step(wish_.target_in_world, step_s);

@@ -86,7 +86,6 @@ class FollowPlayer {
                retarget::Adapter::Handle handle);
   void begin(double time_s,
              double step_s,
-             double lift_m,
              const BlendPlayer& blend,
              std::span<const RigidTransform> reference,
              std::span<const RigidTransform> posed);

@@ -114,6 +114,23 @@ std::optional<FootReference::Landing> next_landing(const BlendPlayer& blend,
   }
   (void)blend.predict(*at_s - kBack_s, *at_s, posture, root);
   const FootPlaces feet = foot_places(rig, posture);
+  const FootPlaces feet_before = foot_places(rig, before);
+  const std::size_t other = 1 - side;
+  if (blend.anchors_at(*at_s)) {
+    // The other foot stands until then, and the root moves over it.
+    const PerFootPart bears = blend.predict_bears(*at_s - kBack_s);
+    const bool on_heel = bears[2 * other] > kBearsAbove;
+    if (on_heel || bears[2 * other + 1] > kBearsAbove) {
+      const auto stood = [&](const RootPlace& place, const FootPlaces& of) {
+        const glm::dvec3& p_legs = on_heel ? of.ankle[other] : of.ball[other];
+        return glm::dvec3(place.x_m, 0.0, place.z_m) +
+               in_world(place, rig.leg_length_m * p_legs);
+      };
+      const glm::dvec3 slid = stood(start, feet_before) - stood(root, feet);
+      root.x_m += slid.x;
+      root.z_m += slid.z;
+    }
+  }
   const auto ankle_at =
       [&](const RootPlace& place, const BlendPosture& of, const FootPlaces& places) {
         glm::dvec3 p = rig.leg_length_m * places.ankle[side];
@@ -124,8 +141,7 @@ std::optional<FootReference::Landing> next_landing(const BlendPlayer& blend,
   landing.in_s = *at_s - time_s;
   landing.ankle_in_world = ankle_at(root, posture, feet);
   landing.velocity_m_s =
-      (landing.ankle_in_world - ankle_at(start, before, foot_places(rig, before))) /
-      kBack_s;
+      (landing.ankle_in_world - ankle_at(start, before, feet_before)) / kBack_s;
   const PerFootPart bears = blend.predict_bears(*at_s);
   landing.is_flat = std::min(bears[2 * side], bears[2 * side + 1]) > kBearsAbove;
   const glm::dquat rotation = in_world(root, foot_rotation(posture, side));
@@ -135,7 +151,6 @@ std::optional<FootReference::Landing> next_landing(const BlendPlayer& blend,
   if (by == nullptr || by->phase != ActionPhase::kFadingIn) return landing;
   sample_clip(blend.base().clip(by->clip), by->warp.source_s(*at_s), before);
   landing.turn_rad = small_turn(rotation, in_world(root, foot_rotation(before, side)));
-  const std::size_t other = 1 - side;
   if (!bears_at(blend, other, *at_s + kTogether_s)) return landing;
   const FootPlaces stands = foot_places(rig, before);
   const glm::dvec3 apart_legs =

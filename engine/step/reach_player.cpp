@@ -101,7 +101,6 @@ RigidTransform ReachPlayer::predicted_palm(double now_s,
   to_normalized(posture, blend.base().layout(), root, map_->leg_length_m, normalized_);
   retarget::expand(normalized_, *skeleton_, *map_, joints_, pose_);
   RigidTransform out = palm(joints_);
-  out.translation.y += lift_m_;
   return out;
 }
 
@@ -162,12 +161,10 @@ bool ReachPlayer::step(double time_s,
                        double step_s,
                        BlendPlayer& blend,
                        std::span<const RigidTransform> world_from_joint,
-                       double lift_m,
                        retarget::Adapter::Handle point,
                        retarget::Adapter::Handle turn) {
   const Action* action = blend.find(action_);
   if (action != nullptr && action->phase == ActionPhase::kQueued) return true;
-  lift_m_ = lift_m;
   if (action == nullptr || action->phase == ActionPhase::kFadingOut) {
     for (std::size_t i = 0; i < companion_count_; ++i) {
       (void)blend.stop(companions_[i].action);

@@ -75,7 +75,6 @@ class ReachPlayer {
             double step_s,
             BlendPlayer& blend,
             std::span<const RigidTransform> world_from_joint,
-            double lift_m,
             retarget::Adapter::Handle point,
             retarget::Adapter::Handle turn);
 
@@ -106,7 +105,6 @@ class ReachPlayer {
   bool has_started_ = false;
   std::array<Companion, 2> companions_{};
   std::size_t companion_count_ = 0;
-  double lift_m_ = 0.0;
   RigidTransform palm_before_;
   retarget::NormalizedPose normalized_;
   std::vector<RigidTransform> joints_;

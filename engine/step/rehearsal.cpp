@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/clips/sample_clip.h"
+#include "engine/feet/lead_legs.h"
 
 #include "retarget/body/normalized_skeleton.h"
 #include "retarget/body/rotation_from_t_pose.h"
@@ -13,21 +14,20 @@
 namespace marey::engine {
 
 Rehearsal::Rehearsal(const Skeleton& skeleton, const retarget::BodyMap& map)
-    : skeleton_(&skeleton), map_(&map), joints_(skeleton.joints.size()) {
+    : skeleton_(&skeleton),
+      map_(&map),
+      joints_(skeleton.joints.size()),
+      led_joints_(skeleton.joints.size()),
+      rig_(make_rig(skeleton, map)) {
   pose_.parent_from_joint.resize(skeleton.joints.size());
   adapted_.parent_from_joint.resize(skeleton.joints.size());
 }
 
-bool Rehearsal::predict(double now_s,
-                        double time_s,
-                        const BlendPlayer& blend,
-                        double lift_m) {
-  BlendPosture posture;
-  if (!blend.predict(now_s, time_s, posture, root_)) return false;
-  to_normalized(posture, blend.base().layout(), root_, map_->leg_length_m, normalized_);
+bool Rehearsal::predict(double now_s, double time_s, const BlendPlayer& blend) {
+  if (!blend.predict(now_s, time_s, posture_, root_)) return false;
+  layout_ = blend.base().layout();
+  to_normalized(posture_, blend.base().layout(), root_, map_->leg_length_m, normalized_);
   retarget::expand(normalized_, *skeleton_, *map_, joints_, pose_);
-  for (RigidTransform& joint : joints_) joint.translation.y += lift_m;
-  pose_.root_in_world.y += lift_m;
   return true;
 }
 
@@ -48,16 +48,22 @@ std::span<const RigidTransform> Rehearsal::adapt(
     const BodyShift& shift,
     std::span<std::optional<retarget::Adapter::Handle>> supports,
     retarget::Adapter& adapter) {
+  std::array<LedFoot, 2> led = feet_of_posture(rig_, root_, posture_);
   for (std::size_t side = 0; side < 2; ++side) {
     const StandingFoot& foot = shift.feet[side];
-    const JointIndex joint =
-        *map_->joint_of[index(side == 0 ? HumanBone::kLeftFoot : HumanBone::kRightFoot)];
-    const glm::dvec3 ankle = joints_[index(joint)].translation;
-    supports[side]->set_target(foot.stands ? foot.ankle_in_world
-                                           : ankle + foot.from_reference_m);
-    supports[side]->set_orientation(
-        foot.stands ? foot.world_from_t_pose
-                    : retarget::rotation_from_t_pose(*map_, joints_, joint));
+    if (foot.stands) {
+      led[side] = {foot.ankle_in_world, foot.world_from_t_pose, 1.0};
+    } else {
+      led[side].ankle_in_world += foot.from_reference_m;
+    }
+  }
+  BlendPosture posture = posture_;
+  lead_legs(rig_, root_, 1.0, led, posture);
+  to_normalized(posture, layout_, root_, map_->leg_length_m, normalized_);
+  retarget::expand(normalized_, *skeleton_, *map_, led_joints_, pose_);
+  for (std::size_t side = 0; side < 2; ++side) {
+    supports[side]->set_target(led[side].ankle_in_world);
+    supports[side]->set_orientation(led[side].world_from_t_pose);
   }
   (void)adapter.adapt(pose_, time_s, adapted_);
   return adapter.world_from_joint();

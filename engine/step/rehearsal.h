@@ -44,10 +44,7 @@ class Rehearsal {
 
   /// Computes the joints of the blend on this body at a time, if nothing changes; false:
   /// nothing plays. Cost: some microseconds.
-  bool predict(double now_s,
-               double time_s,
-               const BlendPlayer& blend,
-               double lift_m = 0.0);
+  bool predict(double now_s, double time_s, const BlendPlayer& blend);
   /// The same for one clip alone, from the start of its path, at the origin.
   void sample(double source_s, const MotionClip& clip, const PostureLayout& layout);
   [[nodiscard]] std::span<const RigidTransform> joints() const { return joints_; }
@@ -66,9 +63,13 @@ class Rehearsal {
   const retarget::BodyMap* map_;
   retarget::NormalizedPose normalized_;
   std::vector<RigidTransform> joints_;
+  std::vector<RigidTransform> led_joints_;
   Pose pose_;
   Pose adapted_;
+  BlendPosture posture_;
   RootPlace root_;
+  PostureLayout layout_;
+  Rig rig_;
 };
 
 /// Returns place and heading of the hips of a posed body.
