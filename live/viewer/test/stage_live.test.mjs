@@ -63,7 +63,7 @@ test('forty bodies reach for a dragged target; it returns; pause, restart, bad m
       return !isHeld && apart(p, held) > 0.02 && await error() < 0.05;
     });
 
-    const clock = () => page.locator('.section-run .clock').textContent();
+    const clock = () => page.locator('.section-run .run-time').textContent();
     await page.getByRole('button', {name: 'Pause scene'}).click();
     await until('the pause', async () => /paused/.test(await page.locator('.pill').textContent()));
     const time = await clock();

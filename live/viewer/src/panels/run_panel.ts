@@ -24,10 +24,10 @@ export function timeText({time_s, duration_s}: Pick<RunWords, 'time_s' | 'durati
 export class RunPanel {
   readonly section = new Section('run', 'Scene', true);
   private readonly play: HTMLButtonElement;
-  private readonly time = el('output', {class: 'clock'});
+  private readonly time = el('output', {class: 'run-time'});
   private readonly rows = el('tbody');
   private readonly figures: HTMLElement;
-  private readonly messages = el('ul', {class: 'messages', 'aria-live': 'polite'});
+  private readonly messages = el('ul', {class: 'run-messages', 'aria-live': 'polite'});
   private state: RunWords['state'] = 'playing';
 
   constructor(private readonly act: (action: RunAction) => void) {
