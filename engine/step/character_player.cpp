@@ -23,6 +23,9 @@ constexpr std::array<const char*, 2> kTurnIds{"reach turn left", "reach turn rig
 constexpr std::array<HumanBone, 2> kFootBones{HumanBone::kLeftFoot,
                                               HumanBone::kRightFoot};
 constexpr double kLevelFade_s = 0.2;
+// Hips joints are up to 0.12 legs above the hip centres, or at their height: a clip of
+// one such body is that much too high on the other.
+constexpr double kMaxLift_legs = 0.2;
 constexpr double kMostDrop_m = 0.03;
 
 Constraint support_of(std::size_t side) {
@@ -167,9 +170,8 @@ void CharacterPlayer::meet_floor(double step_s) {
     }
     sole_m = std::min(sole_m.value_or(height_m), height_m);
   }
-  const double lift_m =
-      smooth_step(activation_) *
-      floor_.step(sole_m, foot_options_.max_height_legs * map_->leg_length_m, step_s);
+  const double lift_m = smooth_step(activation_) *
+                        floor_.step(sole_m, kMaxLift_legs * map_->leg_length_m, step_s);
   shift_.lift_m = lift_m;
   for (RigidTransform& joint : world_from_joint_) joint.translation.y += lift_m;
   reference_.root_in_world.y += lift_m;

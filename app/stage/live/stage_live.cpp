@@ -81,7 +81,6 @@ StageLoopFigures run_stage_loop(const StageLoopParts& parts,
     const int steps = session.update(now + kSlack);
     if (steps > 0) {
       const double busy_s = seconds(clock.now() - now);
-      session.figures().add_step_time(busy_s, steps);
       figures.busy_s += busy_s;
       figures.steps += steps;
       ++figures.frames;

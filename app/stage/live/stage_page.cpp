@@ -112,7 +112,7 @@ void StagePage::publish_run(StageSession& session) {
       session.is_playing() ? live::PageRunState::kPlaying : live::PageRunState::kPaused;
   run.time_s = session.run().time_s();
   run.duration_s = session.run().scene().duration_s;
-  run.figures = session.figures().report();
+  run.figures = session.report_figures();
   run.messages = messages_of(session);
   page_.server.publish_text(live::PageMessage::kRun, live::run_json(run));
 }

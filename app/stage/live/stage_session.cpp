@@ -17,8 +17,8 @@ int most_steps_at_once(double step_hz) {
 }  // namespace
 
 Result<StageSession> StageSession::make(SceneRunInput input, Timestamp now) {
-  // A run without an end must not fill the memory.
-  input.records = false;
+  // For the figures; LiveFigures empties the record again.
+  input.records = true;
   auto run = SceneRun::make(input);
   if (!run) return run.error();
   return StageSession(std::move(input), *std::move(run), now);
@@ -28,8 +28,8 @@ StageSession::StageSession(SceneRunInput input, SceneRun run, Timestamp now)
     : input_(std::move(input)),
       run_(std::move(run)),
       targets_(run_),
-      figures_(run_),
       clock_(run_.scene().step_hz, most_steps_at_once(run_.scene().step_hz)) {
+  run_.forget_steps();
   clock_.start(now);
 }
 
@@ -42,6 +42,7 @@ Status StageSession::carry_out(live::RunAction action, Timestamp now) {
     auto run = SceneRun::make(input_);
     if (!run) return run.error();
     run_ = *std::move(run);
+    run_.forget_steps();
     targets_.reset();
     figures_.reset();
   } else if (is_playing_) {

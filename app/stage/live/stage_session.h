@@ -49,7 +49,10 @@ class StageSession {
   [[nodiscard]] std::vector<live::PageTarget> targets() const {
     return targets_.places(run_);
   }
-  [[nodiscard]] LiveFigures& figures() { return figures_; }
+  /// Returns the figures since the last report; see LiveFigures.
+  [[nodiscard]] std::vector<live::PageRunFigure> report_figures() {
+    return figures_.report(run_);
+  }
   /// Returns the number of steps that were skipped because the machine was too slow.
   [[nodiscard]] std::int64_t skipped() const { return clock_.skipped(); }
 
