@@ -199,8 +199,10 @@ void play_throw(const std::shared_ptr<const engine::MotionBase>& base,
     const auto wrist = continued(last, &ThrowFrame::wrist, steps);
     const auto ball = continued(last, &ThrowFrame::ball, steps);
     const auto hips = continued(last, &ThrowFrame::hips, steps);
-    const glm::dquat turn =
-        glm::angleAxis(-last[2].heading_rad, glm::dvec3(0.0, 1.0, 0.0));
+    const double heading_rad =
+        last[2].heading_rad +
+        steps * std::remainder(last[2].heading_rad - last[1].heading_rad, 6.283185307);
+    const glm::dquat turn = glm::angleAxis(-heading_rad, glm::dvec3(0.0, 1.0, 0.0));
     const glm::dvec3 velocity = turn * (ball[1] / engine.step_s());
     ThrowParameters judged;
     judged.wrist_in_heading_m = turn * (wrist[0] - glm::dvec3(hips[0].x, 0.0, hips[0].z));
