@@ -40,6 +40,7 @@
 #include "app/shell/sample_session.h"
 #include "app/shell/stop_signal.h"
 #include "app/shell/usage_error.h"
+#include "app/stage/stage_commands.h"
 #include "app/shell/version.h"
 #include "app/view/view_commands.h"
 #include "core/base/printable.h"
@@ -61,6 +62,7 @@ struct Arguments {
   LibraryArguments library;
   BaseArguments base;
   BlendArguments blend;
+  StageArguments stage;
   ConvertArguments convert;
   MannequinArguments mannequin;
   PrintArguments print;
@@ -122,6 +124,7 @@ int run(int argc, char** argv) {
   add_library_command(app, args.library, chosen);
   add_base_command(app, args.base, chosen);
   add_blend_command(app, args.blend, chosen);
+  add_stage_command(app, args.stage, chosen);
   add_convert_command(app, args.convert, chosen);
   add_mannequin_command(app, args.mannequin, chosen);
   add_print_commands(app, args.print, chosen);

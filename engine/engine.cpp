@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/engine.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -13,6 +14,11 @@
 
 namespace marey::engine {
 namespace {
+
+/// Number of characters that are prepared and then adapted together.
+constexpr std::size_t kBlock = 256;
+/// Fewer are not adapted in lanes: most of these would be empty.
+constexpr std::size_t kMinLaneJobs = 6;
 
 std::array<bool, kGroupCount> groups_of(const retarget::BodyMap& map) {
   std::array<bool, kGroupCount> out{};
@@ -38,7 +44,15 @@ Error no_room(const std::string& clip) {
 }  // namespace
 
 Engine::Engine(std::shared_ptr<const MotionBase> base, const EngineOptions& options)
-    : base_(std::move(base)), options_(options) {}
+    : base_(std::move(base)), options_(options) {
+  for (const MotionClip& clip : base_->clips()) {
+    std::shared_ptr<const ClipTravel> travel;
+    if (auto found = travel_of_clip(clip)) {
+      travel = std::make_shared<const ClipTravel>(*std::move(found));
+    }
+    travels_.push_back(std::move(travel));
+  }
+}
 
 Result<Engine> Engine::make(std::shared_ptr<const MotionBase> base,
                             const EngineOptions& options) {
@@ -66,9 +80,40 @@ Result<CharacterId> Engine::add(CharacterSpec spec) {
   }
   auto player = CharacterPlayer::make(base_, std::move(spec));
   if (!player) return player.error();
-  characters_.push_back(*std::move(player));
+  characters_.push_back(std::make_unique<CharacterPlayer>(*std::move(player)));
+  const Status joined = join_crowd(*characters_.back());
+  if (!joined) {
+    characters_.pop_back();
+    return joined.error();
+  }
   stepped_.push_back(steps_);
+  adapts_.push_back(0);
   return CharacterId{static_cast<int>(characters_.size()) - 1};
+}
+
+Status Engine::join_crowd(CharacterPlayer& player) {
+  for (std::size_t i = 0; i < crowds_.size(); ++i) {
+    if (!crowds_[i]->takes(player.adapter())) continue;
+    auto member = crowds_[i]->add(player.leave_adapter());
+    if (!member) return member.error();
+    player.join(*crowds_[i], *member);
+    crowd_of_.push_back(i);
+    const std::size_t most = options_.threads > 1 ? *member + 1 : kBlock;
+    jobs_[i].reserve(std::min(*member + 1, most));
+    return Done{};
+  }
+  std::vector<retarget::Adapter> first;
+  first.push_back(player.leave_adapter());
+  retarget::CrowdOptions options;
+  options.threads = options_.threads;
+  options.min_lane_jobs = kMinLaneJobs;
+  auto crowd = retarget::Crowd::make(std::move(first), options);
+  if (!crowd) return crowd.error();
+  crowds_.push_back(std::make_unique<retarget::Crowd>(*std::move(crowd)));
+  player.join(*crowds_.back(), 0);
+  crowd_of_.push_back(crowds_.size() - 1);
+  jobs_.emplace_back().reserve(1);
+  return Done{};
 }
 
 Status Engine::check_character(CharacterId character) const {
@@ -82,7 +127,8 @@ Status Engine::check_character(CharacterId character) const {
 Result<Action> Engine::checked(CharacterId character, const ActionWish& wish) const {
   if (const auto known = check_character(character); !known) return known.error();
   const CharacterPlayer& who = player(character);
-  auto action = check_wish(wish, *base_, who.blend().actions(), groups_of(who.map()));
+  auto action =
+      check_wish(wish, who.blend().base(), who.blend().actions(), groups_of(who.map()));
   if (!action) return action.error();
   if (!who.blend().has_room()) return no_room(wish.clip);
   return action;
@@ -104,8 +150,8 @@ Result<ActionId> Engine::play(CharacterId character, const LiveWish& wish) {
   if (const auto known = check_character(character); !known) return known.error();
   if (const Status good = check_live_options(wish.options); !good) return good.error();
   CharacterPlayer& who = player(character);
-  auto action =
-      check_live_wish(wish.action, *base_, who.blend().actions(), groups_of(who.map()));
+  auto action = check_live_wish(
+      wish.action, who.blend().base(), who.blend().actions(), groups_of(who.map()));
   if (!action) return action.error();
   if (!who.blend().has_room()) return no_room(wish.action.clip);
   action->id = ActionId{next_action_++};
@@ -129,122 +175,13 @@ Status Engine::push(CharacterId character, const LivePosture& posture) {
   return live->push(posture);
 }
 
-Result<ActionId> Engine::play(CharacterId character, const SteerWish& wish) {
-  auto action = checked(character, wish.action);
-  if (!action) return action.error();
-  auto steer = SteerPlayer::make(*base_, ActionId{next_action_}, action->clip, wish);
-  if (!steer) return steer.error();
-  player(character).steer(*std::move(steer));
-  return add_action(character, *std::move(action));
-}
-
-Status Engine::aim(CharacterId character, glm::dvec2 goal_xz_m) {
-  if (const auto known = check_character(character); !known) return known.error();
-  if (SteerPlayer* steer = player(character).steering()) return steer->aim(goal_xz_m);
-  return bad_input("character " + std::to_string(static_cast<int>(character)),
-                   "it does not walk to a goal",
-                   "play a walk with a goal first");
-}
-
-Result<ActionId> Engine::play(CharacterId character, const ReachWish& wish) {
-  auto action = checked(character, wish.action);
-  if (!action) return action.error();
-  auto reach = made_reach(character, *action, wish);
-  if (!reach) return reach.error();
-  player(character).reach(*std::move(reach));
-  return add_action(character, *std::move(action));
-}
-
-Status Engine::check_hand(CharacterId character,
-                          const std::string& clip,
-                          int side) const {
-  if (!player(character).can_reach()) {
-    return bad_input("action \"" + clip + "\"",
-                     "the character was added without constraints for its hands",
-                     "add it with CharacterSpec::reaches");
-  }
-  if (side == 0 || side == 1) return Done{};
-  return bad_input("action \"" + clip + "\"",
-                   "there is no hand " + std::to_string(side),
-                   "give 0 for the left hand or 1 for the right one");
-}
-
-Result<ThrowPlayer> Engine::made_throw(CharacterId character,
-                                       Action action,
-                                       const ThrowWish& wish) const {
-  if (const Status good = check_hand(character, wish.action.clip, wish.side); !good) {
-    return good.error();
-  }
-  const CharacterPlayer& who = player(character);
-  action.id = ActionId{next_action_};
-  return ThrowPlayer::make(*base_, action, wish, who.character().skeleton, who.map());
-}
-
-Result<ActionId> Engine::play(CharacterId character, const ThrowWish& wish) {
-  auto action = checked(character, wish.action);
-  if (!action) return action.error();
-  auto made = made_throw(character, *action, wish);
-  if (!made) return made.error();
-  player(character).play_throw(*std::move(made));
-  return add_action(character, *std::move(action));
-}
-
-Status Engine::aim_ball(CharacterId character, int side, const glm::dvec3& p_in_world) {
-  if (const auto known = check_character(character); !known) return known.error();
-  if (side == 0 || side == 1) {
-    if (ThrowPlayer* made = player(character).throwing(side)) {
-      return made->aim(p_in_world);
-    }
-  }
-  return bad_input("character " + std::to_string(static_cast<int>(character)),
-                   "this hand does not throw",
-                   "play a throw with it first");
-}
-
-Result<ThrowFeasibility> Engine::ask(CharacterId character, const ThrowWish& wish) const {
-  auto action = checked(character, wish.action);
-  if (!action) return action.error();
-  auto made = made_throw(character, *action, wish);
-  if (!made) return made.error();
-  return made->ask(player(character).blend().root(), *action, step_s());
-}
-
-Result<ReachPlayer> Engine::made_reach(CharacterId character,
-                                       const Action& action,
-                                       const ReachWish& wish) const {
-  if (const Status good = check_hand(character, wish.action.clip, wish.side); !good) {
-    return good.error();
-  }
-  const CharacterPlayer& who = player(character);
-  return ReachPlayer::make(*base_,
-                           ActionId{next_action_},
-                           action.clip,
-                           wish,
-                           who.character().skeleton,
-                           who.map());
-}
-
-Status Engine::aim(CharacterId character, int side, const ReachTarget& target) {
-  if (const auto known = check_character(character); !known) return known.error();
-  if (side == 0 || side == 1) {
-    if (ReachPlayer* reach = player(character).reaching(side)) return reach->aim(target);
-  }
-  return bad_input("character " + std::to_string(static_cast<int>(character)),
-                   "this hand does not reach",
-                   "play a reach with it first");
-}
-
-Result<ReachFeasibility> Engine::ask(CharacterId character, const ReachWish& wish) const {
-  auto action = checked(character, wish.action);
-  if (!action) return action.error();
-  auto reach = made_reach(character, *action, wish);
-  if (!reach) return reach.error();
-  return reach->ask(player(character).blend(), *action);
-}
-
 Status Engine::stop(CharacterId character, ActionId action) {
   if (const auto known = check_character(character); !known) return known.error();
   if (player(character).blend().stop(action)) return Done{};
+  if (FollowPlayer* follow = player(character).following(action)) {
+    follow->stop();
+    return Done{};
+  }
   return bad_input("action " + std::to_string(number(action)),
                    "it is over, or was never requested",
                    "use an id that play() returned");
@@ -253,6 +190,9 @@ Status Engine::stop(CharacterId character, ActionId action) {
 Status Engine::stop_all(CharacterId character, std::optional<int> layer) {
   if (const auto known = check_character(character); !known) return known.error();
   player(character).blend().stop_layer(layer);
+  if (!layer) {
+    for (FollowPlayer& follow : player(character).follows()) follow.stop();
+  }
   return Done{};
 }
 
@@ -260,11 +200,6 @@ void Engine::advance(int steps) {
   MAREY_ASSERT(steps >= 0 && !is_stepping_);
   for (int i = 0; i < steps; ++i) {
     begin_step();
-    if (options_.threads > 1) {
-      in_parallel(characters_.size(),
-                  static_cast<std::size_t>(options_.threads),
-                  [&](std::size_t c) { step(CharacterId{static_cast<int>(c)}); });
-    }
     end_step();
   }
 }
@@ -286,10 +221,40 @@ void Engine::step(CharacterId character) {
 
 void Engine::end_step() {
   MAREY_ASSERT(is_stepping_);
-  for (std::size_t c = 0; c < characters_.size(); ++c) {
-    if (stepped_[c] < steps_) step(CharacterId{static_cast<int>(c)});
+  const std::size_t count = characters_.size();
+  // With one thread in blocks, whose memory stays in the cache between both parts.
+  const std::size_t block = options_.threads > 1 ? count : kBlock;
+  for (std::size_t first = 0; first < count; first += block) {
+    step_block(first, std::min(first + block, count));
   }
   is_stepping_ = false;
+}
+
+void Engine::step_block(std::size_t first, std::size_t end) {
+  const double now_s = time_s();
+  const auto prepare = [&](std::size_t c) {
+    adapts_[c] = 0;
+    if (stepped_[c] == steps_) return;
+    stepped_[c] = steps_;
+    if (characters_[c]->prepare_step(now_s, step_s())) adapts_[c] = 1;
+  };
+  if (options_.threads > 1) {
+    in_parallel(end - first,
+                static_cast<std::size_t>(options_.threads),
+                [&](std::size_t i) { prepare(first + i); });
+  } else {
+    for (std::size_t c = first; c < end; ++c) prepare(c);
+  }
+  for (auto& jobs : jobs_) jobs.clear();
+  for (std::size_t c = first; c < end; ++c) {
+    if (adapts_[c] != 0) jobs_[crowd_of_[c]].push_back(characters_[c]->adapt_job());
+  }
+  for (std::size_t i = 0; i < crowds_.size(); ++i) {
+    if (!jobs_[i].empty()) crowds_[i]->adapt(jobs_[i], now_s);
+  }
+  for (std::size_t c = first; c < end; ++c) {
+    if (adapts_[c] != 0) characters_[c]->finish_step();
+  }
 }
 
 double Engine::time_s() const {
@@ -313,10 +278,13 @@ CharacterPlayer& Engine::player(CharacterId character) {
 
 const CharacterPlayer& Engine::player(CharacterId character) const {
   MAREY_ASSERT(check_character(character).has_value());
-  return characters_[static_cast<std::size_t>(character)];
+  return *characters_[static_cast<std::size_t>(character)];
 }
 
 ActionPhase Engine::phase(CharacterId character, ActionId action) const {
+  if (const FollowPlayer* follow = player(character).following(action)) {
+    return follow->is_stopping() ? ActionPhase::kFadingOut : ActionPhase::kHolding;
+  }
   const Action* found = player(character).blend().find(action);
   return found == nullptr ? ActionPhase::kDone : found->phase;
 }

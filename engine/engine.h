@@ -11,7 +11,11 @@
 
 #include "engine/actions/action.h"
 #include "engine/clips/motion_base.h"
+#include "engine/models/clip_travel.h"
+#include "engine/models/steer_plan.h"
 #include "engine/step/character_player.h"
+#include "engine/step/choose_family.h"
+#include "engine/step/jump_wish.h"
 
 #include "core/base/result.h"
 
@@ -92,6 +96,29 @@ class Engine {
   /// Answers whether a throw can succeed, without playing it. Errors: those of play().
   [[nodiscard]] Result<ThrowFeasibility> ask(CharacterId character,
                                              const ThrowWish& wish) const;
+  /// Requests that a point of the body follows a target at once, without a clip. It
+  /// replaces an earlier follow of that point, and reach and throw of that hand. Errors:
+  /// CharacterPlayer::make_follow()'s.
+  [[nodiscard]] Result<ActionId> play(CharacterId character, const FollowWish& wish);
+  /// Moves the target of a follow. Errors: no such follow; not finite.
+  [[nodiscard]] Status aim(CharacterId character,
+                           ActionId follow,
+                           const glm::dvec3& target_in_world);
+  /// Answers how far a target is and how long the point needs to it. Errors: those of
+  /// play().
+  [[nodiscard]] Result<FollowFeasibility> ask(CharacterId character,
+                                              const FollowWish& wish) const;
+  /// Answers when and in how many landings a walk that begins at the start of its cycle
+  /// arrives at its goal. Errors: those of play().
+  [[nodiscard]] Result<SteerAnswer> ask(CharacterId character,
+                                        const SteerWish& wish) const;
+  /// Requests a jump with another apex, airtime or landing. Plans it now: some
+  /// milliseconds for the first jump of a clip, less for others; allocates. Errors: those
+  /// of an action, of JumpBody::make() and of dynamics::plan_jump().
+  [[nodiscard]] Result<ActionId> play(CharacterId character, const JumpWish& wish);
+  /// Answers whether a jump is possible. The first question about a clip costs some
+  /// milliseconds. Errors: those of play(), except those of the plan.
+  [[nodiscard]] Result<JumpFeasibility> ask(CharacterId character, const JumpWish& wish);
   /// Fades an action out, or takes a waiting one back. Error: it is over or unknown.
   [[nodiscard]] Status stop(CharacterId character, ActionId action);
   /// Fades out all actions of a layer; nullopt means all layers.
@@ -144,11 +171,26 @@ class Engine {
   [[nodiscard]] Result<ThrowPlayer> made_throw(CharacterId character,
                                                Action action,
                                                const ThrowWish& wish) const;
+  [[nodiscard]] Result<std::vector<FamilyAction>> chosen_family(
+      CharacterId character, const ReachWish& wish) const;
+  [[nodiscard]] Result<ActionId> play_family(CharacterId character,
+                                             Action action,
+                                             const ReachWish& wish);
+  [[nodiscard]] Status join_crowd(CharacterPlayer& player);
+  void step_block(std::size_t first, std::size_t end);
   ActionId add_action(CharacterId character, Action action);
 
   std::shared_ptr<const MotionBase> base_;
   EngineOptions options_;
-  std::vector<CharacterPlayer> characters_;
+  /// By clip; nullptr: it cannot be steered.
+  std::vector<std::shared_ptr<const ClipTravel>> travels_;
+  std::vector<std::unique_ptr<CharacterPlayer>> characters_;
+  /// Characters of like bodies and constraints are members of one crowd.
+  std::vector<std::unique_ptr<retarget::Crowd>> crowds_;
+  std::vector<std::size_t> crowd_of_;  ///< By character.
+  std::vector<std::vector<retarget::CrowdJob>>
+      jobs_;                           ///< By crowd: of the current block.
+  std::vector<char> adapts_;           ///< By character, in this step.
   std::vector<std::int64_t> stepped_;  ///< By character: number of its last step.
   bool is_stepping_ = false;           ///< Between begin_step() and end_step().
   std::int64_t steps_ = 0;

@@ -9,6 +9,7 @@
 // ARRIVE_S is the time in REACH.bvh at which its right hand arrives. The bones of both
 // files have VRM's names, as in the files that marey writes. The character has the body
 // of the walk.
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -112,8 +113,8 @@ Status play_scene(engine::Engine& engine, engine::CharacterId ann, Motion& out) 
   reach.target.p_in_world.y += 0.05;
   if (const Status ok = engine.aim(ann, kRightHand, reach.target); !ok) return ok;
   play_on(engine, ann, 60, out);
-  const double palm_m = palm_to_m(engine.player(ann), reach.target.p_in_world);
-  std::printf("palm_to_cup_mm %.3f\n", 1000.0 * palm_m);
+  const double miss_m = palm_to_m(engine.player(ann), reach.target.p_in_world);
+  std::printf("palm_to_cup_mm %.3f\n", 1000.0 * std::abs(miss_m));
   return Done{};
 }
 

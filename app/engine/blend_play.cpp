@@ -11,10 +11,10 @@
 #include "engine/clips/sample_clip.h"
 #include "engine/engine.h"
 
+#include "app/engine/clip_on_body.h"
 #include "core/base/format_text.h"
 #include "core/base/in_quotes.h"
 #include "core/pose.h"
-#include "retarget/body/normalized_skeleton.h"
 
 namespace marey::app {
 namespace {
@@ -173,23 +173,13 @@ Result<PlayedBlend> play_blend(const BlendArguments& args, const BlendInputs& in
 Motion clip_on_body(const BlendInputs& inputs, std::size_t clip) {
   const MotionClip& source = inputs.base->clip(clip);
   const Skeleton& skeleton = inputs.character.skeleton;
-  const double leg_length_m = inputs.map.leg_length_m;
+  ClipOnBody player(source, inputs.base->layout(), skeleton, inputs.map);
   Motion out{skeleton, {kBlendRate_hz}, 0, {}};
-  std::vector<RigidTransform> world_from_joint(skeleton.joints.size());
   const int last =
       static_cast<int>(std::floor(source.duration_s() * kBlendRate_hz + 1e-6));
   for (int i = 0; i <= last; ++i) {
-    const double time_s = std::min(i / kBlendRate_hz, source.duration_s());
-    engine::RootPlace root = engine::path_at(source, time_s);
-    root.x_m *= leg_length_m;
-    root.z_m *= leg_length_m;
-    BlendPosture posture;
-    engine::sample_clip(source, time_s, posture);
-    retarget::NormalizedPose normalized;
-    engine::to_normalized(posture, inputs.base->layout(), root, leg_length_m, normalized);
-    Pose pose;
-    retarget::expand(normalized, skeleton, inputs.map, world_from_joint, pose);
-    out.poses.push_back(std::move(pose));
+    (void)player.joints_at(std::min(i / kBlendRate_hz, source.duration_s()));
+    out.poses.push_back(player.pose());
   }
   return out;
 }

@@ -43,8 +43,10 @@ bool uses_hand_models(const SceneAction& action) {
 engine::CharacterSpec spec_of(const Scene& scene,
                               const SceneBody& line,
                               const StageBody& body,
-                              std::size_t place) {
+                              std::size_t place,
+                              const std::shared_ptr<const Floor>& floor) {
   engine::CharacterSpec spec;
+  spec.floor = floor;
   spec.character = body.character;
   spec.map = body.map;
   spec.start = body.start;
@@ -121,7 +123,12 @@ struct SceneRun::State {
         dependencies(scene_dependencies(input.scene)) {}
 
   void order_bodies(double time_s);
+  [[nodiscard]] bool is_awaited(std::size_t body) const {
+    return !rounds.empty() && rounds[body] < rounds[order.back()];
+  }
   void keep_step();
+  /// Limits the figures to the recorded steps, so that no event outside counts.
+  void limit_figures() const;
 
   SceneRunInput input;
   engine::Engine engine;
@@ -133,6 +140,7 @@ struct SceneRun::State {
   std::vector<std::size_t> rounds{};
   std::vector<std::size_t> order{};
   mutable StageRecord record{};
+  bool has_forgotten = false;
   double spent_ms = 0.0;
   std::size_t steps = 0;
 };
@@ -152,13 +160,23 @@ void SceneRun::State::keep_step() {
     track.poses.push_back(player.pose());
     track.references.push_back(player.reference());
     track.stands.push_back(player.report().stands);
-    track.floor_moved_m.push_back({});
+    track.floor_moved_m.push_back(player.report().floor_moved_m);
   }
   for (StageTargetTrack& track : record.targets) {
     const auto use = std::find_if(uses.begin(), uses.end(), [&](const TargetUse& u) {
       return u.target == track.target && u.user == track.body;
     });
     track.p_in_world.push_back(places.in_world(*use, engine.time_s(), engine));
+  }
+}
+
+void SceneRun::State::limit_figures() const {
+  constexpr double kAfter_s = 1e-6;  // An event at the begin was in the record before.
+  for (std::size_t f = 0; f < record.scene.figures.size(); ++f) {
+    const SceneFigure& given = input.scene.figures[f];
+    SceneFigure& limited = record.scene.figures[f];
+    limited.from_s = std::max(given.from_s, record.begin_s + kAfter_s);
+    limited.to_s = std::min(given.to_s.value_or(engine.time_s()), engine.time_s());
   }
 }
 
@@ -177,9 +195,13 @@ Result<SceneRun> SceneRun::make(SceneRunInput input) {
   auto script = ScriptPlayer::make(in.scene, in.bodies, *in.base, in.trials);
   if (!script) return script.error();
   state->script = *std::move(script);
+  std::shared_ptr<const Floor> floor;  // nullptr: level, at height 0.
+  if (!in.floor.parts.empty() || in.floor.base_height_m != 0.0) {
+    floor = std::make_shared<const Floor>(in.floor);
+  }
   for (std::size_t i = 0; i < in.bodies.size(); ++i) {
     const SceneBody& line = state->lines[i];
-    const auto id = state->engine.add(spec_of(in.scene, line, in.bodies[i], i));
+    const auto id = state->engine.add(spec_of(in.scene, line, in.bodies[i], i, floor));
     if (!id) return id.error();
     for (const Load& load : in.bodies[i].character.loads) {
       (void)state->engine.player(*id).carry(load.name, true);
@@ -214,7 +236,8 @@ void SceneRun::advance() {
   s.engine.begin_step();
   for (const std::size_t body : s.order) {
     s.script->aim(body, now_s, step_s, s.places, s.engine);
-    s.engine.step(id_of(body));
+    // Nobody waits for the bodies of the last round: end_step() solves them together.
+    if (s.is_awaited(body)) s.engine.step(id_of(body));
   }
   s.engine.end_step();
   s.script->end_step(now_s, s.engine);
@@ -269,8 +292,29 @@ const StageRecord& SceneRun::record() const {
   MAREY_ASSERT(s.input.records);
   s.record.actions = s.script->runs();
   s.record.throws = s.script->throws();
+  if (s.has_forgotten) s.limit_figures();
   s.record.mean_step_ms = s.steps == 0 ? 0.0 : s.spent_ms / static_cast<double>(s.steps);
   return s.record;
+}
+
+double SceneRun::recorded_from_s() const {
+  return state_->record.begin_s;
+}
+
+void SceneRun::forget_steps() {
+  State& s = *state_;
+  MAREY_ASSERT(s.input.records);
+  for (StageTrack& track : s.record.tracks) {
+    track.poses.clear();
+    track.references.clear();
+    track.stands.clear();
+    track.floor_moved_m.clear();
+  }
+  for (StageTargetTrack& track : s.record.targets) track.p_in_world.clear();
+  s.record.begin_s = time_s();
+  s.has_forgotten = true;
+  s.spent_ms = 0.0;
+  s.steps = 0;
 }
 
 const std::vector<Error>& SceneRun::problems() const {

@@ -71,6 +71,12 @@ class SceneRun {
 
   /// The run so far. Precondition: SceneRunInput::records.
   [[nodiscard]] const StageRecord& record() const;
+  /// Empties the record, which begins anew with the next step: a run without an end must
+  /// not fill the memory. The record's figures are then limited to its steps.
+  /// Precondition: SceneRunInput::records.
+  void forget_steps();
+  /// Time of the scene at which the record begins.
+  [[nodiscard]] double recorded_from_s() const;
   /// Actions that could not begin, in the order of their times.
   [[nodiscard]] const std::vector<Error>& problems() const;
 

@@ -82,7 +82,7 @@ struct StageThrow {
 };
 
 /// Everything that figures, pictures and files of a scene need. All vectors by step have
-/// one entry per step; step k is at time (k + 1) / step_hz.
+/// one entry per step; step k is at time begin_s + (k + 1) / step_hz.
 struct StageRecord {
   Scene scene{};
   Floor floor{};  ///< Without parts: level, at height 0.
@@ -93,12 +93,13 @@ struct StageRecord {
   std::vector<StageActionRun> actions{};
   std::vector<StageThrow> throws{};
   double mean_step_ms = 0.0;  ///< By the clock.
+  double begin_s = 0.0;       ///< Time of the scene; above 0 after forget_steps().
 
   [[nodiscard]] std::size_t step_count() const {
     return tracks.empty() ? 0 : tracks.front().poses.size();
   }
   [[nodiscard]] double time_s(std::size_t step) const {
-    return static_cast<double>(step + 1) / scene.step_hz;
+    return begin_s + static_cast<double>(step + 1) / scene.step_hz;
   }
 };
 

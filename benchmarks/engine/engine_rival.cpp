@@ -94,10 +94,14 @@ class SwitchPlayer {
         frame.arrived = 1.0 - (1.0 + y * since) * std::exp(-y * since);
       }
       result.frames.push_back(frame);
-      const auto hips = player.map().hips();
-      std::vector<RigidTransform> world =
-          world_from_joints(character_.skeleton, player.reference());
-      result.blend_hips_in_world.push_back(world[index(hips)].translation);
+      // The blend on the floor, before feet lower or move the hips.
+      glm::dvec3 hips_in_world = player.reference().root_in_world;
+      if (way.level != engine::DetailLevel::kBlended) {
+        hips_in_world.y = player.lift_m() +
+                          player.map().leg_length_m *
+                              static_cast<double>(player.blend().posture().height_legs);
+      }
+      result.blend_hips_in_world.push_back(hips_in_world);
     }
     return result;
   }

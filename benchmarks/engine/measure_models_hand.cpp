@@ -287,8 +287,8 @@ JudgedThrow judge(const CapturedHand& hand,
 }
 
 engine::ThrowChanges throw_wish(const engine::ThrowParameters& captured,
-                             std::size_t parameter,
-                             double by) {
+                                std::size_t parameter,
+                                double by) {
   engine::ThrowChanges wish;
   const glm::dvec3 wrist = captured.wrist_in_heading_m;
   if (parameter == 0) wish.x_m = wrist.x + 0.15 * by;

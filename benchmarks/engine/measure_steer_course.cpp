@@ -20,15 +20,13 @@
 #include <utility>
 #include <vector>
 
-#include "edit/render.h"
-#include "edit/state/edit_state.h"
 #include "engine/clips/make_clip.h"
 #include "engine/clips/rig.h"
 #include "engine/models/steer_course.h"
 #include "engine/models/steer_plan.h"
 #include <glm/geometric.hpp>
 
-#include "app/motion/retarget_files.h"
+#include "benchmarks/engine/steered_clips.h"
 #include "benchmarks/parts/result_table.h"
 
 namespace marey {
@@ -44,64 +42,16 @@ struct SteeredClip {
   engine::ClipTravel travel;
 };
 
-void keep_frames(std::vector<FrameRange>& runs, int last) {
-  for (FrameRange& run : runs) run.last = std::min(run.last, last);
-  // Contacts of one frame at the seam are rests of those of the neighbouring cycles.
-  std::erase_if(runs, [](const FrameRange& run) { return run.last <= run.first; });
-}
-
-/// One cycle of a rendered loop of two, with the first frame of the second one.
-engine::ClipSource one_cycle(edit::EditState state, const std::string& name) {
-  const int last = state.frame_count() / 2;
-  state.motion.poses.resize(static_cast<std::size_t>(last) + 1);
-  for (auto& foot : state.contacts.feet) {
-    keep_frames(foot.heel, last);
-    keep_frames(foot.ball, last);
-    keep_frames(foot.stance, last);
-  }
-  engine::ClipSource source;
-  source.name = name;
-  source.motion = std::move(state.motion);
-  source.map = std::move(state.map);
-  source.contacts = std::move(state.contacts);
-  source.loops = true;
-  return source;
-}
-
 Result<SteeredClip> make_steered(const fs::path& file, const std::string& name) {
-  const bool is_drunk = name == "drunk";
-  const auto read = app::read_motion({file});
-  if (!read) return read.error();
-  auto state = edit::make_edit_state(read->motion);
-  if (!state) return state.error();
-  EditRecipe recipe;
-  recipe.sources.emplace_back();
-  if (is_drunk) {
-    EditOp sway{ExaggerateOp{.gain = 2.0}};
-    sway.groups = {EditGroup::kTrunk};
-    recipe.ops.push_back(sway);
-  }
-  CyclifyOp cyclify;
-  cyclify.cycles = 2;
-  cyclify.force = true;
-  // A drunk's steps differ: his cycle is two strides.
-  if (is_drunk) {
-    cyclify.min_period_s = 1.6;
-    cyclify.max_period_s = 3.5;
-  }
-  recipe.ops.push_back(EditOp{cyclify});
-  edit::EditInputs inputs;
-  inputs.sources.emplace("", std::move(*state));
-  auto rendered = edit::render(recipe, std::move(inputs));
-  if (!rendered) return rendered.error();
-  const engine::ClipSource source = one_cycle(rendered->outputs.front(), name);
-  const std::array maps{source.map};
-  const auto clip = engine::make_clip(source, engine::choose_layout(maps));
+  const auto source = read_cycle(file, name);
+  if (!source) return source.error();
+  const std::array maps{source->map};
+  const auto clip = engine::make_clip(*source, engine::choose_layout(maps));
   if (!clip) return clip.error();
   const auto travel = engine::travel_of_clip(*clip);
   if (!travel) return travel.error();
   return SteeredClip{
-      engine::make_rig(source.motion.skeleton, source.map), *clip, *travel};
+      engine::make_rig(source->motion.skeleton, source->map), *clip, *travel};
 }
 
 /// True if a foot bears, and the time until that changes. [s]
@@ -302,9 +252,8 @@ int run(const fs::path& mocap, const fs::path& library) {
                    {"stretch cm", 1},
                    {"ask us", 1},
                    {"ask worst us", 1}};
-  table.notes = {
-      "misasked: ask_steer() differs in arrival, or its time by more than 1 s",
-      "twist, stretch: taken by hip and knee of a standing leg over a stance"};
+  table.notes = {"misasked: ask_steer() differs in arrival, or its time by more than 1 s",
+                 "twist, stretch: taken by hip and knee of a standing leg over a stance"};
   for (const auto& [name, file] : motions) {
     if (!fs::exists(file)) {
       std::printf("%s: no file, left out\n", name.c_str());

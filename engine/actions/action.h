@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "engine/blend/posture_groups.h"
@@ -84,6 +85,28 @@ struct ActionWish {
 /// State of an action.
 enum class ActionPhase { kQueued, kFadingIn, kHolding, kFadingOut, kDone };
 
+/// The warp of an action: one of the few that its character keeps for actions that play.
+/// Preconditions of the functions that call it: the action is alive.
+class ActionWarp {
+ public:
+  [[nodiscard]] PhaseWarp* get() const { return at_; }
+  void place(PhaseWarp* at) { at_ = at; }
+  void start(double now_s, double source_s, double rate) const {
+    at_->start(now_s, source_s, rate);
+  }
+  bool replan(double now_s,
+              std::span<const WarpKnot> knots,
+              double end_rate,
+              double keep_s = 0.1) const {
+    return at_->replan(now_s, knots, end_rate, keep_s);
+  }
+  [[nodiscard]] double source_s(double time_s) const { return at_->source_s(time_s); }
+  [[nodiscard]] double rate(double time_s) const { return at_->rate(time_s); }
+
+ private:
+  PhaseWarp* at_ = nullptr;
+};
+
 /// An action of a character.
 struct Action {
   ActionId id{};
@@ -110,7 +133,7 @@ struct Action {
   ActionPhase phase = ActionPhase::kQueued;
   double started_s = 0.0;
   double stopped_s = std::numeric_limits<double>::infinity();
-  PhaseWarp warp;
+  ActionWarp warp;
 
   [[nodiscard]] bool is_alive() const {
     return phase != ActionPhase::kQueued && phase != ActionPhase::kDone;

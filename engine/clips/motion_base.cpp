@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/assert.h"
 #include "core/engine/check_motion_clip.h"
 
 namespace marey::engine {
@@ -15,10 +16,25 @@ constexpr double kMinPhase_s = 0.04;
 
 }  // namespace
 
-MotionBase::MotionBase(MoveSet moves) : moves_(std::move(moves)) {
-  for (const MotionClip& clip : moves_.clips) {
-    phases_.push_back(phases_of(clip, kMinPhase_s));
+MotionBase::MotionBase(MoveSet moves) {
+  auto shared = std::make_shared<Shared>();
+  shared->moves = std::move(moves);
+  for (const MotionClip& clip : shared->moves.clips) {
+    shared->phases.push_back(phases_of(clip, kMinPhase_s));
   }
+  shared_ = std::move(shared);
+}
+
+std::shared_ptr<const MotionBase> MotionBase::with_own(std::size_t slot,
+                                                       MotionClip clip) const {
+  MAREY_ASSERT(slot <= own_.size());
+  std::shared_ptr<MotionBase> out(new MotionBase(*this));
+  auto own = std::make_shared<Own>();
+  own->phases = phases_of(clip, kMinPhase_s);
+  own->clip = std::move(clip);
+  if (slot == out->own_.size()) out->own_.emplace_back();
+  out->own_[slot] = std::move(own);
+  return out;
 }
 
 Result<std::shared_ptr<const MotionBase>> MotionBase::make(MoveSet moves) {
@@ -41,17 +57,17 @@ Result<std::shared_ptr<const MotionBase>> MotionBase::make(MoveSet moves) {
 
 std::optional<std::size_t> MotionBase::find(std::string_view name) const {
   const auto it = std::lower_bound(
-      moves_.clips.begin(),
-      moves_.clips.end(),
+      clips().begin(),
+      clips().end(),
       name,
       [](const MotionClip& clip, std::string_view wanted) { return clip.name < wanted; });
-  if (it == moves_.clips.end() || it->name != name) return std::nullopt;
-  return static_cast<std::size_t>(it - moves_.clips.begin());
+  if (it == clips().end() || it->name != name) return std::nullopt;
+  return static_cast<std::size_t>(it - clips().begin());
 }
 
 bool MotionBase::has_contacts(std::size_t clip) const {
-  return std::any_of(moves_.clips[clip].contacts.begin(),
-                     moves_.clips[clip].contacts.end(),
+  return std::any_of(this->clip(clip).contacts.begin(),
+                     this->clip(clip).contacts.end(),
                      [](const std::vector<ClipSpan>& spans) { return !spans.empty(); });
 }
 

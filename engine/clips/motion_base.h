@@ -25,22 +25,41 @@ class MotionBase {
   /// of the clip; a name that is empty or occurs twice.
   [[nodiscard]] static Result<std::shared_ptr<const MotionBase>> make(MoveSet moves);
 
-  [[nodiscard]] const PostureLayout& layout() const { return moves_.layout; }
-  [[nodiscard]] std::span<const MotionClip> clips() const { return moves_.clips; }
-  [[nodiscard]] const MotionClip& clip(std::size_t i) const { return moves_.clips[i]; }
+  [[nodiscard]] const PostureLayout& layout() const { return shared_->moves.layout; }
+  /// The clips of the file, without own ones.
+  [[nodiscard]] std::span<const MotionClip> clips() const { return shared_->moves.clips; }
+  [[nodiscard]] const MotionClip& clip(std::size_t i) const {
+    return i < clips().size() ? shared_->moves.clips[i] : own_[i - clips().size()]->clip;
+  }
   /// Position of the clip of that name; nullopt if unknown. Logarithmic.
   [[nodiscard]] std::optional<std::size_t> find(std::string_view name) const;
   /// Phases of a clip, without those below 40 ms.
   [[nodiscard]] std::span<const Phase> phases(std::size_t clip) const {
-    return phases_[clip];
+    return clip < clips().size() ? std::span<const Phase>(shared_->phases[clip])
+                                 : own_[clip - clips().size()]->phases;
   }
+  /// Returns a base with the same clips, and one more for a single character: at
+  /// clips().size() + slot, in place of an earlier one of that slot. The clips of the
+  /// file are shared. Precondition: slot <= number of own clips.
+  [[nodiscard]] std::shared_ptr<const MotionBase> with_own(std::size_t slot,
+                                                           MotionClip clip) const;
+  [[nodiscard]] std::size_t own_count() const { return own_.size(); }
   /// True if a clip has contacts.
   [[nodiscard]] bool has_contacts(std::size_t clip) const;
 
  private:
+  struct Shared {
+    MoveSet moves;
+    std::vector<std::vector<Phase>> phases;
+  };
+  struct Own {
+    MotionClip clip;
+    std::vector<Phase> phases;
+  };
   explicit MotionBase(MoveSet moves);
-  MoveSet moves_;
-  std::vector<std::vector<Phase>> phases_;
+  MotionBase(const MotionBase&) = default;
+  std::shared_ptr<const Shared> shared_;
+  std::vector<std::shared_ptr<const Own>> own_;
 };
 
 }  // namespace marey::engine

@@ -45,6 +45,14 @@ void fade(Motion2<glm::dvec3>& state,
   state = left_s > step_s * 1.001 ? quintic(state, end, left_s, step_s) : end;
 }
 
+glm::dquat about_vertical(double yaw_rad) {
+  return {std::cos(0.5 * yaw_rad), 0.0, std::sin(0.5 * yaw_rad), 0.0};
+}
+
+double yaw_of(const glm::dquat& rotation) {
+  return 2.0 * std::atan2(rotation.y, rotation.w);
+}
+
 }  // namespace
 
 FootHold::Mode FootHold::mode_of(const FootReference& reference,
@@ -106,8 +114,12 @@ void FootHold::change(Mode mode,
     stands_rotation_ = glm::normalize(rotation_by(onward) * rotation);
     turn_ = {-onward, place_spin_rad_s_, glm::dvec3(0.0)};
   } else {
-    turn_ = {turn_between(last_reference_.world_from_t_pose, rotation),
-             place_spin_rad_s_ - reference_spin_rad_s_,
+    // The yaw that a standing foot has kept stays; the rest fades.
+    const glm::dquat& from = last_reference_.world_from_t_pose;
+    held_yaw_rad_ = mode == Mode::kFree ? 0.0 : yaw_of(rotation * glm::conjugate(from));
+    turn_ = {turn_between(about_vertical(held_yaw_rad_) * from, rotation),
+             place_spin_rad_s_ - reference_spin_rad_s_ +
+                 glm::dvec3(0.0, mode == Mode::kFree ? 0.0 : steered_rad_s_, 0.0),
              glm::dvec3(0.0)};
   }
   mode_ = mode;
@@ -185,12 +197,18 @@ FootHold::Place FootHold::step(const FootReference& reference,
     place_motion_.value = reference.ankle_in_world;
     reference_motion_.value = reference.ankle_in_world;
   }
+  steered_rad_s_ = reference.steered_rad / step_s;
   if (mode != mode_) change(mode, foot, options);
   fade_turn(reference, step_s);
+  if (mode_ == Mode::kHeel || mode_ == Mode::kBall) {
+    held_yaw_rad_ -= reference.steered_rad;
+  }
   Place place;
-  place.world_from_t_pose = glm::normalize(
-      rotation_by(turn_.value) *
-      (mode_ == Mode::kFlat ? stands_rotation_ : reference.world_from_t_pose));
+  place.world_from_t_pose =
+      glm::normalize(rotation_by(turn_.value) *
+                     (mode_ == Mode::kFlat
+                          ? stands_rotation_
+                          : about_vertical(held_yaw_rad_) * reference.world_from_t_pose));
   if (mode_ == Mode::kFree) {
     place.ankle_in_world = free_ankle(reference, foot, step_s);
   } else {

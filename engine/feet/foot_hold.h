@@ -28,6 +28,9 @@ struct FootReference {
   glm::dquat world_from_t_pose{1.0, 0.0, 0.0, 0.0};
   bool heel_bears = false;
   bool ball_bears = false;
+  /// Turn of the root in this step that is not the clips': a steered walk's. A foot that
+  /// bears on heel or ball does not take part in it. [rad]
+  double steered_rad = 0.0;
   /// The next landing, if it is within FootHoldOptions::land_s.
   struct Landing {
     double in_s = 0.0;  ///< Time until it.
@@ -97,6 +100,8 @@ class FootHold {
   /// Rotation vector in the world: from the reference, or in kFlat from the standing
   /// rotation. [rad]
   Motion2<glm::dvec3> turn_;
+  double steered_rad_s_ = 0.0;
+  double held_yaw_rad_ = 0.0;  ///< In kHeel and kBall: from the reference, before turn_.
   glm::dvec3 stands_in_world_{0.0};  ///< Ankle, or ball in kBall.
   glm::dquat stands_rotation_{1.0, 0.0, 0.0, 0.0};
   // Reference and result of the last step, with their velocities by differences.

@@ -48,6 +48,7 @@ struct ReachFeasibility {
   bool reachable = false;
   double missing_m = 0.0;   ///< Distance of the target from the places within reach.
   double duration_s = 0.0;  ///< Until arrival; later than the clip's for a far target.
+  int steps = 0;            ///< The same in steps of the engine; set by Engine::ask().
 };
 
 /// Answers whether a reach can succeed, from lengths, without playing it. The places

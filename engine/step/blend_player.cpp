@@ -270,7 +270,7 @@ PerFootPart BlendPlayer::predict_bears(double time_s) const {
 
 PhaseWarp* BlendPlayer::warp(ActionId id) {
   Action* action = find_mutable(id);
-  return action == nullptr || !action->is_alive() ? nullptr : &action->warp;
+  return action == nullptr || !action->is_alive() ? nullptr : action->warp.get();
 }
 
 void BlendPlayer::move_root(const Blend& blend, double time_s, double step_s) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/actions/action.h"
@@ -32,6 +33,8 @@ struct BlendPlayerOptions {
   double half_life_s = 0.1;  ///< For inertial offsets.
   double max_incompatible_s = 0.10;
   double anchor_fade_s = 0.05;
+  /// A fade may begin later if it has 0.9 of its weight within this time.
+  double settle_s = 0.35;
   bool anchors_root = true;
 };
 
@@ -101,6 +104,8 @@ class BlendPlayer {
     return weights_[action];
   }
   [[nodiscard]] const MotionBase& base() const { return *base_; }
+  /// Replaces the base by one with the same clips, and others that no action plays.
+  void set_base(std::shared_ptr<const MotionBase> base) { base_ = std::move(base); }
   [[nodiscard]] const Rig& rig() const { return rig_; }
 
  private:
@@ -119,8 +124,20 @@ class BlendPlayer {
   void begin(Action& action, double time_s);
   void retire_replaced(const Action& by, double time_s, bool at_once);
   [[nodiscard]] bool synchronise(Action& action, double time_s, bool always);
+  /// Times of a clip at which an action may enter: the middle and half of the width.
+  struct EntryRange {
+    double middle_s = 0.0;
+    double half_s = 0.0;
+  };
+  [[nodiscard]] static EntryRange entry_range(const Action& action,
+                                              const MotionClip& clip);
+  void choose_landing(const Action& lead_action,
+                      Action& action,
+                      const EntryRange& range,
+                      double time_s);
   void begin_inertial(Action& action, double time_s);
   void limit_alive(double time_s);
+  void place_warp(Action& action, double time_s);
   void end_finished(double time_s);
   [[nodiscard]] std::size_t alive(std::span<const Action*> out) const;
   [[nodiscard]] bool blend_at(double time_s,
@@ -136,6 +153,9 @@ class BlendPlayer {
   BlendPlayerOptions options_;
   std::array<Action, kMaxActions> actions_{};  ///< Ascending by layer, then by id.
   std::size_t count_ = 0;
+  /// For actions that are alive, and one that begins.
+  using Warps = std::array<PhaseWarp, kMaxAlive + 1>;
+  std::unique_ptr<Warps> warps_ = std::make_unique<Warps>();
   std::array<PerGroup, kMaxActions> weights_{};
 
   bool is_known_ = false;   ///< There is a posture.
@@ -151,7 +171,7 @@ class BlendPlayer {
   RootPlace root_offset_;  ///< Decaying velocity that remains of a break.
   RootPlace root_offset_rate_;
   RootAnchor anchor_;
-  double anchored_s_ = 0.0;       ///< For the present or last transition.
+  double delay_s_ = 0.0;          ///< Until the fade of the action that begins.
   double anchor_strength_ = 0.0;  ///< 0 to 1, before smoothing.
   double transition_end_s_ = -1.0;
   PerFootPart bears_{};

@@ -8,6 +8,7 @@
 #include "engine/step/blend_player.h"
 #include "engine/sync/plan_sync.h"
 #include "engine/transition/entry_cost.h"
+#include "engine/transition/landing_cost.h"
 
 // The beginning of actions, and the transitions to them.
 
@@ -16,14 +17,13 @@ namespace {
 
 // A clip that does not loop is not entered so late that it ends within this time.
 constexpr double kLeast_s = 1.2;
+// A fade begins at most this late. [s]
+constexpr double kMostDelay_s = 0.12;
 
-// Times of a clip at which an action may enter: the middle and half of the width.
-struct EntryRange {
-  double middle_s = 0.0;
-  double half_s = 0.0;
-};
+}  // namespace
 
-EntryRange entry_range(const Action& action, const MotionClip& clip) {
+BlendPlayer::EntryRange BlendPlayer::entry_range(const Action& action,
+                                                 const MotionClip& clip) {
   const double asked_s = action.entry_s.value_or(0.0);
   if (clip.loops) return {asked_s, action.entry_search_s};
   const double first_s = std::max(0.0, asked_s - action.entry_search_s);
@@ -32,8 +32,6 @@ EntryRange entry_range(const Action& action, const MotionClip& clip) {
   const double end_s = std::max(last_s, asked_s);
   return {0.5 * (first_s + end_s), 0.5 * (end_s - first_s)};
 }
-
-}  // namespace
 
 bool BlendPlayer::may_begin(const Action& action, double time_s, double step_s) const {
   if (action.is_live && !live_->source().has_data()) return false;
@@ -162,11 +160,53 @@ bool BlendPlayer::synchronise(Action& action, double time_s, bool always) {
     (void)action.warp.replan(
         time_s, std::span(knots).subspan(1, plan.knot_count - 1), action.rate, 0.0);
   }
+  if (!always && action.replaces) choose_landing(*lead_action, action, range, time_s);
   return true;
+}
+
+void BlendPlayer::choose_landing(const Action& lead_action,
+                                 Action& action,
+                                 const EntryRange& range,
+                                 double time_s) {
+  EntryQuestion question;
+  question.rig = &rig_;
+  question.from = &base_->clip(lead_action.clip);
+  question.from_source_s = lead_action.warp.source_s(time_s);
+  question.from_rate = lead_action.rate;
+  question.to = &base_->clip(action.clip);
+  question.to_rate = action.rate;
+  question.asked_s = action.entry_s.value_or(0.0);
+  question.first_s = range.middle_s - range.half_s;
+  question.last_s = range.middle_s + range.half_s;
+  question.anywhere = question.to->loops && range.half_s > 0.0;
+  question.fade_s = action.fade_in_s;
+  // The fade has 0.9 after 0.75 of its time.
+  question.max_delay_s =
+      std::clamp(options_.settle_s - 0.75 * action.fade_in_s, 0.0, kMostDelay_s);
+  const double planned_m = entry_landing_cost(
+      question, 0.0, action.warp.source_s(time_s + 0.5 * action.fade_in_s));
+  const EntryAnswer answer = choose_entry(question);
+  if (answer.cost_m >= planned_m) return;
+  action.warp.start(time_s, answer.entry_s, action.rate);
+  delay_s_ = answer.delay_s;
+}
+
+void BlendPlayer::place_warp(Action& action, double time_s) {
+  limit_alive(time_s);
+  for (PhaseWarp& warp : *warps_) {
+    const bool is_taken = std::ranges::any_of(actions(), [&](const Action& other) {
+      return other.is_alive() && other.warp.get() == &warp;
+    });
+    if (is_taken) continue;
+    action.warp.place(&warp);
+    return;
+  }
 }
 
 void BlendPlayer::begin(Action& action, double time_s) {
   report_ = {};
+  delay_s_ = 0.0;
+  place_warp(action, time_s);
   const bool moves_legs = action.leg_priority() > 0.0F;
   const bool meets_others = is_known_ && moves_legs;
   bool at_once = action.transition == TransitionKind::kCut ||
@@ -191,13 +231,13 @@ void BlendPlayer::begin(Action& action, double time_s) {
   if (!is_known_) action.fade_in_s = 0.0;
   report_.is_inertial = at_once && action.transition != TransitionKind::kCut;
   action.phase = action.fade_in_s > 0.0 ? ActionPhase::kFadingIn : ActionPhase::kHolding;
-  action.started_s = time_s;
-  if (action.replaces) retire_replaced(action, time_s, at_once);
+  action.started_s = time_s + delay_s_;
+  if (action.replaces) retire_replaced(action, action.started_s, at_once);
   if (at_once && is_known_) is_broken_ = true;
   cuts_ = cuts_ || action.transition == TransitionKind::kCut;
   if (moves_legs && is_known_) {
     const double lasts_s = at_once ? 3.0 * options_.half_life_s : action.fade_in_s;
-    transition_end_s_ = std::max(transition_end_s_, time_s + lasts_s);
+    transition_end_s_ = std::max(transition_end_s_, action.started_s + lasts_s);
   }
 }
 

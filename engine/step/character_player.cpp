@@ -6,11 +6,13 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/feet/leg_reach.h"
 #include "engine/step/landing.h"
 
 #include "core/base/smooth_step.h"
 #include "retarget/body/normalized_skeleton.h"
 #include "retarget/body/rotation_from_t_pose.h"
+#include "retarget/constraints/resolve_segment.h"
 
 namespace marey::engine {
 namespace {
@@ -21,6 +23,10 @@ constexpr std::array<const char*, 2> kTurnIds{"reach turn left", "reach turn rig
 constexpr std::array<HumanBone, 2> kFootBones{HumanBone::kLeftFoot,
                                               HumanBone::kRightFoot};
 constexpr double kLevelFade_s = 0.2;
+// Hips joints are up to 0.12 legs above the hip centres, or at their height: a clip of
+// one such body is that much too high on the other.
+constexpr double kMaxLift_legs = 0.2;
+constexpr double kMostDrop_m = 0.03;
 
 Constraint support_of(std::size_t side) {
   Constraint support;
@@ -31,6 +37,21 @@ Constraint support_of(std::size_t side) {
   goal.world_from_t_pose = glm::dquat(1.0, 0.0, 0.0, 0.0);
   support.goal = goal;
   return support;
+}
+
+// Points of the constraints that follow: at a place, without a distance.
+std::vector<FollowPoint> follow_points(const ConstraintSet& constraints,
+                                       const Skeleton& skeleton,
+                                       const retarget::BodyMap& map) {
+  std::vector<FollowPoint> out;
+  for (const Constraint& constraint : constraints.constraints) {
+    const auto* goal = std::get_if<DistanceToPoint>(&constraint.goal);
+    if (goal == nullptr || goal->distance_m != 0.0) continue;
+    const auto joint = retarget::resolve_segment(skeleton, constraint.point.segment);
+    if (!joint || map.joints[index(*joint)].role == retarget::JointRole::kFree) continue;
+    out.push_back({constraint.id, *joint, constraint.point.offset_in_t_pose});
+  }
+  return out;
 }
 
 }  // namespace
@@ -66,17 +87,26 @@ Result<CharacterPlayer> CharacterPlayer::make(std::shared_ptr<const MotionBase> 
     }
     constraints.constraints.push_back(constraint);
   }
+  auto reserved = ClipConstraints::reserve(*base, spec.constrained_clips);
+  if (!reserved) return reserved.error();
+  std::vector<FollowPoint> points =
+      follow_points(constraints, spec.character.skeleton, spec.map);
+  for (Constraint& constraint : *reserved) {
+    constraints.constraints.push_back(std::move(constraint));
+  }
   retarget::AdaptOptions options = spec.adapt;
   if (spec.level == DetailLevel::kKinetic) {
     options.balance = retarget::BalanceMode::kHorizontal;
   }
   auto adapter = retarget::Adapter::make(spec.character, constraints, options);
   if (!adapter) return adapter.error();
-  return CharacterPlayer(std::move(base), std::move(spec), *std::move(adapter));
+  return CharacterPlayer(
+      std::move(base), std::move(spec), std::move(points), *std::move(adapter));
 }
 
 CharacterPlayer::CharacterPlayer(std::shared_ptr<const MotionBase> base,
                                  CharacterSpec spec,
+                                 std::vector<FollowPoint> points,
                                  retarget::Adapter adapter)
     : character_(std::make_shared<const Character>(std::move(spec.character))),
       map_(std::make_shared<const retarget::BodyMap>(std::move(spec.map))),
@@ -86,18 +116,23 @@ CharacterPlayer::CharacterPlayer(std::shared_ptr<const MotionBase> base,
       level_(spec.level),
       activation_(spec.level == DetailLevel::kBlended ? 0.0 : 1.0),
       adapter_(std::make_unique<retarget::Adapter>(std::move(adapter))),
+      points_(std::move(points)),
+      ground_(std::move(spec.floor)),
       world_from_joint_(character_->skeleton.joints.size()),
       reference_(rest_pose(character_->skeleton)),
       pose_(reference_) {
+  shown_joints_.resize(world_from_joint_.size());
   for (std::size_t side = 0; side < 2; ++side) {
     supports_[side] = adapter_->constraint(kSupportIds[side]);
     reach_handles_[2 * side] = adapter_->constraint(kReachIds[side]);
     reach_handles_[2 * side + 1] = adapter_->constraint(kTurnIds[side]);
   }
+  follows_.reserve(points_.size());
+  clip_constraints_.attach(blend_.base(), spec.constrained_clips, *adapter_);
 }
 
 std::span<const RigidTransform> CharacterPlayer::world_from_joint() const {
-  if (is_adapted_) return adapter_->world_from_joint();
+  if (is_adapted_) return adapter().world_from_joint();
   return world_from_joint_;
 }
 
@@ -108,6 +143,7 @@ FootReference CharacterPlayer::foot_reference(std::size_t side, double time_s) c
   out.world_from_t_pose = retarget::rotation_from_t_pose(*map_, world_from_joint_, joint);
   out.heel_bears = bore_[side][0];
   out.ball_bears = bore_[side][1];
+  out.steered_rad = steered_rad_;
   if (!out.heel_bears && !out.ball_bears) {
     out.landing = next_landing(blend_, side, time_s, foot_options_.land_s);
     if (out.landing) out.landing->ankle_in_world.y += floor_.lift_m();
@@ -134,9 +170,9 @@ void CharacterPlayer::meet_floor(double step_s) {
     }
     sole_m = std::min(sole_m.value_or(height_m), height_m);
   }
-  const double lift_m =
-      smooth_step(activation_) *
-      floor_.step(sole_m, foot_options_.max_height_legs * map_->leg_length_m, step_s);
+  const double lift_m = smooth_step(activation_) *
+                        floor_.step(sole_m, kMaxLift_legs * map_->leg_length_m, step_s);
+  shift_.lift_m = lift_m;
   for (RigidTransform& joint : world_from_joint_) joint.translation.y += lift_m;
   reference_.root_in_world.y += lift_m;
 }
@@ -145,20 +181,15 @@ void CharacterPlayer::hold_feet(double time_s, double step_s) {
   const double share = smooth_step(activation_);
   glm::dvec2 away_m(0.0);
   double standing = 0.0;
+  std::array<FootHold::Place, 2> places{};
   for (std::size_t side = 0; side < 2; ++side) {
     const FootReference reference = foot_reference(side, time_s);
     const FootHold::Place place = feet_[side].step(
         reference, map_->feet[side], blend_.rig().leg_length_m, step_s, foot_options_);
+    places[side] = place;
     report_.stands[side] = feet_[side].holds();
     ankle_xz_m_[side] = {place.ankle_in_world.x, place.ankle_in_world.z};
-    StandingFoot& now = shift_.feet[side];
-    now.stands = report_.stands[side];
-    now.ankle_in_world = glm::mix(reference.ankle_in_world, place.ankle_in_world, share);
-    now.world_from_t_pose = glm::normalize(
-        glm::slerp(reference.world_from_t_pose, place.world_from_t_pose, share));
-    now.from_reference_m = now.ankle_in_world - reference.ankle_in_world;
-    supports_[side]->set_target(now.ankle_in_world);
-    supports_[side]->set_orientation(now.world_from_t_pose);
+    shift_.feet[side].stands = report_.stands[side];
     if (report_.stands[side]) {
       away_m += ankle_xz_m_[side] -
                 glm::dvec2(reference.ankle_in_world.x, reference.ankle_in_world.z);
@@ -172,90 +203,104 @@ void CharacterPlayer::hold_feet(double time_s, double step_s) {
   root.x_m += pull_m.x;
   root.z_m += pull_m.y;
   blend_.place(root);
+  lead_feet(places, share);
 }
 
-void CharacterPlayer::reach(ReachPlayer reach) {
-  const std::size_t side = static_cast<std::size_t>(reach.side());
-  if (throws_[side]) {
-    throws_[side]->drop(
-        time_s_, *reach_handles_[2 * side], *reach_handles_[2 * side + 1]);
-  }
-  reaches_[side] = std::move(reach);
-}
-
-ReachPlayer* CharacterPlayer::reaching(int side) {
-  auto& reach = reaches_[static_cast<std::size_t>(side)];
-  return reach ? &*reach : nullptr;
-}
-
-void CharacterPlayer::play_throw(ThrowPlayer made) {
-  const std::size_t side = static_cast<std::size_t>(made.side());
-  if (throws_[side])
-    throws_[side]->drop(
-        time_s_, *reach_handles_[2 * side], *reach_handles_[2 * side + 1]);
-  throws_[side] = std::move(made);
-}
-
-const ThrowPlayer* CharacterPlayer::throwing(int side) const {
-  const auto& made = throws_[static_cast<std::size_t>(side)];
-  return made ? &*made : nullptr;
-}
-
-ThrowPlayer* CharacterPlayer::throwing(int side) {
-  return const_cast<ThrowPlayer*>(std::as_const(*this).throwing(side));
-}
-
-void CharacterPlayer::move_throws(double time_s, double step_s) {
+// Lowers the hips as far as the legs of standing feet need it, at most kMostDrop_m, and
+// passes the feet to the adapter as far as the legs reach.
+void CharacterPlayer::lead_feet(const std::array<FootHold::Place, 2>& places,
+                                double share) {
+  const auto hip_in_world = [&](std::size_t side) {
+    return world_from_joint_[index(map_->leg(static_cast<int>(side)).upper)].translation;
+  };
+  double drop_m = 0.0;
   for (std::size_t side = 0; side < 2; ++side) {
-    if (!throws_[side] || throws_[side]->is_over()) continue;
-    const ThrowStage stage{time_s,
-                           step_s,
-                           blend_,
-                           world_from_joint_,
-                           shift_,
-                           *adapter_,
-                           supports_,
-                           *reach_handles_[2 * side],
-                           *reach_handles_[2 * side + 1]};
-    throws_[side]->step(stage);
-    if (throws_[side]->holds()) reaches_[side].reset();
+    if (!report_.stands[side]) continue;
+    drop_m = std::max(drop_m,
+                      hips_drop_m(hip_in_world(side),
+                                  places[side].ankle_in_world,
+                                  map_->leg(static_cast<int>(side)).length_m()));
   }
-}
-
-void CharacterPlayer::steer_root(double time_s, double step_s) {
-  if (!steer_) return;
-  std::array<bool, 2> bears{};
-  for (std::size_t side = 0; side < 2; ++side)
-    bears[side] = bore_[side][0] || bore_[side][1];
-  steer_->step(time_s, step_s, ankle_xz_m_, bears, blend_);
-}
-
-void CharacterPlayer::move_hands(double time_s, double step_s) {
+  drop_m = share * kMostDrop_m * std::tanh(drop_m / kMostDrop_m);
+  for (RigidTransform& joint : world_from_joint_) joint.translation.y -= drop_m;
+  reference_.root_in_world.y -= drop_m;
   for (std::size_t side = 0; side < 2; ++side) {
-    if (!reaches_[side]) continue;
-    if (!reaches_[side]->step(time_s,
-                              step_s,
-                              blend_,
-                              world_from_joint_,
-                              *reach_handles_[2 * side],
-                              *reach_handles_[2 * side + 1])) {
-      reaches_[side].reset();
-    }
+    const FootHold::Place& place = places[side];
+    const JointIndex joint = *map_->joint_of[index(kFootBones[side])];
+    const double leg_m = map_->leg(static_cast<int>(side)).length_m();
+    const glm::dvec3 hip = hip_in_world(side);
+    const double reach_m =
+        report_.stands[side]
+            ? kMostReach * leg_m
+            : leg_reach_m(glm::distance(hip, place.ankle_in_world), leg_m);
+    const glm::dvec3 ankle = ankle_within(hip, place.ankle_in_world, reach_m);
+    StandingFoot& now = shift_.feet[side];
+    const glm::dvec3& of_blend = world_from_joint_[index(joint)].translation;
+    now.ankle_in_world = glm::mix(of_blend, ankle, share);
+    now.world_from_t_pose = glm::normalize(
+        glm::slerp(retarget::rotation_from_t_pose(*map_, world_from_joint_, joint),
+                   place.world_from_t_pose,
+                   share));
+    now.from_reference_m = now.ankle_in_world - of_blend;
+    supports_[side]->set_target(now.ankle_in_world);
+    supports_[side]->set_orientation(now.world_from_t_pose);
   }
+}
+
+void CharacterPlayer::ride_floor(double time_s, double step_s) {
+  if (ground_ == nullptr) return;
+  std::array<FloorRide::Foot, 2> feet{};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const StandingFoot& foot = shift_.feet[side];
+    feet[side] = {foot.stands, foot.ankle_in_world, map_->feet[side].ankle_height_m};
+  }
+  const auto shifts = ride_.step(*ground_, time_s, step_s, feet);
+  const double share = smooth_step(activation_);
+  const glm::dvec3 body_m = 0.5 * share * (shifts[0].moved_m + shifts[1].moved_m);
+  for (RigidTransform& joint : world_from_joint_) joint.translation += body_m;
+  reference_.root_in_world += body_m;
+  for (std::size_t side = 0; side < 2; ++side) {
+    StandingFoot& foot = shift_.feet[side];
+    foot.ankle_in_world += share * shifts[side].moved_m;
+    foot.from_reference_m += share * shifts[side].moved_m - body_m;
+    foot.world_from_t_pose = glm::normalize(
+        glm::slerp(glm::dquat(1.0, 0.0, 0.0, 0.0), shifts[side].turn, share) *
+        foot.world_from_t_pose);
+    supports_[side]->set_target(foot.ankle_in_world);
+    supports_[side]->set_orientation(foot.world_from_t_pose);
+    report_.floor_moved_m[side] = shifts[side].carried_m;
+  }
+}
+
+void CharacterPlayer::join(retarget::Crowd& crowd, std::size_t member) {
+  adapter_.reset();
+  crowd_ = &crowd;
+  member_ = member;
 }
 
 void CharacterPlayer::step(double time_s, double step_s) {
+  if (!prepare_step(time_s, step_s)) return;
+  report_.adapt = adapter().adapt(reference_, time_s, pose_);
+  finish_step();
+}
+
+retarget::CrowdJob CharacterPlayer::adapt_job() {
+  return {member_, &reference_, &pose_, &report_.adapt};
+}
+
+bool CharacterPlayer::prepare_step(double time_s, double step_s) {
   time_s_ = time_s;
-  if (!blend_.step(time_s, step_s)) return;
+  if (!blend_.step(time_s, step_s)) return false;
   steer_root(time_s, step_s);
   report_.transition = blend_.report();
+  retarget::NormalizedPose normalized;
   to_normalized(blend_.posture(),
                 blend_.base().layout(),
                 blend_.root(),
                 map_->leg_length_m,
-                normalized_);
+                normalized);
   retarget::expand(
-      normalized_, character_->skeleton, *map_, world_from_joint_, reference_);
+      normalized, character_->skeleton, *map_, world_from_joint_, reference_);
   const double change = step_s / kLevelFade_s;
   activation_ = std::clamp(
       activation_ + (level_ == DetailLevel::kBlended ? -change : change), 0.0, 1.0);
@@ -266,17 +311,31 @@ void CharacterPlayer::step(double time_s, double step_s) {
     feet_[1].reset();
     floor_.reset();
     report_.stands = {};
-    return;
+    keep_shown();
+    return false;
   }
   meet_floor(step_s);
   // Before the feet, because a throw poses the body at other times.
   move_throws(time_s, step_s);
   hold_feet(time_s, step_s);
+  ride_floor(time_s, step_s);
   move_hands(time_s, step_s);
-  report_.adapt = adapter_->adapt(reference_, time_s, pose_);
+  move_follows(time_s, step_s);
+  clip_constraints_.step(time_s, map_->leg_length_m, blend_);
+  return true;
+}
+
+void CharacterPlayer::finish_step() {
   const std::size_t hips = index(map_->hips());
-  shift_.hips_m = adapter_->world_from_joint()[hips].translation -
+  shift_.hips_m = adapter().world_from_joint()[hips].translation -
                   world_from_joint_[hips].translation;
+  keep_shown();
+}
+
+void CharacterPlayer::keep_shown() {
+  if (points_.empty()) return;
+  const auto joints = world_from_joint();
+  shown_joints_.assign(joints.begin(), joints.end());
 }
 
 }  // namespace marey::engine

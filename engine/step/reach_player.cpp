@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/clips/sample_clip.h"
+#include "engine/step/rehearsal.h"
 
 #include "retarget/body/normalized_skeleton.h"
 #include "retarget/body/rotation_from_t_pose.h"
@@ -99,19 +100,31 @@ RigidTransform ReachPlayer::predicted_palm(double now_s,
   if (!blend.predict(now_s, time_s, posture, root)) return palm_before_;
   to_normalized(posture, blend.base().layout(), root, map_->leg_length_m, normalized_);
   retarget::expand(normalized_, *skeleton_, *map_, joints_, pose_);
-  return palm(joints_);
+  RigidTransform out = palm(joints_);
+  out.translation.y += lift_m_;
+  return out;
 }
 
-// The engine's time at which the clip's event plays; at `now_s` if it is over.
-double ReachPlayer::event_time_s(double now_s, const PhaseWarp& warp) const {
-  if (warp.source_s(now_s) >= event_s_) return now_s;
-  double low = now_s;
-  double high = now_s + (event_s_ - warp.source_s(now_s)) / kMinWarpRate;
-  for (int i = 0; i < 40; ++i) {
-    const double middle = 0.5 * (low + high);
-    (warp.source_s(middle) < event_s_ ? low : high) = middle;
+void ReachPlayer::add_companion(ActionId action, double event_s) {
+  if (companion_count_ == companions_.size()) return;
+  companions_[companion_count_++] = {action, event_s};
+}
+
+// Plays the clips so that their events happen at a time.
+void ReachPlayer::put_off(double time_s,
+                          double step_s,
+                          double arrive_s,
+                          BlendPlayer& blend) {
+  const auto replan = [&](ActionId id, double event_s) {
+    PhaseWarp* warp = blend.warp(id);
+    if (warp == nullptr) return;
+    const WarpKnot knot{arrive_s, event_s};
+    (void)warp->replan(time_s, {&knot, 1}, blend.find(id)->rate, step_s);
+  };
+  replan(action_, event_s_);
+  for (std::size_t i = 0; i < companion_count_; ++i) {
+    replan(companions_[i].action, companions_[i].event_s);
   }
-  return 0.5 * (low + high);
 }
 
 ReachFeasibility ReachPlayer::ask(const BlendPlayer& blend, const Action& action) {
@@ -149,10 +162,17 @@ bool ReachPlayer::step(double time_s,
                        double step_s,
                        BlendPlayer& blend,
                        std::span<const RigidTransform> world_from_joint,
+                       double lift_m,
                        retarget::Adapter::Handle point,
                        retarget::Adapter::Handle turn) {
   const Action* action = blend.find(action_);
   if (action != nullptr && action->phase == ActionPhase::kQueued) return true;
+  lift_m_ = lift_m;
+  if (action == nullptr || action->phase == ActionPhase::kFadingOut) {
+    for (std::size_t i = 0; i < companion_count_; ++i) {
+      (void)blend.stop(companions_[i].action);
+    }
+  }
   const RigidTransform now = palm(world_from_joint);
   PhaseWarp* warp = blend.warp(action_);
   if (!has_started_) {
@@ -166,7 +186,8 @@ bool ReachPlayer::step(double time_s,
       palm_before_, now, predicted_palm(time_s, time_s + step_s, blend), step_s);
   palm_before_ = now;
   if (warp == nullptr || action->phase == ActionPhase::kFadingOut) course_.release();
-  const double arrive_s = warp == nullptr ? time_s : event_time_s(time_s, *warp);
+  const double arrive_s =
+      warp == nullptr ? time_s : event_time_s(*warp, time_s, event_s_);
   input.clip_at_arrival = input.clip_now;
   if (arrive_s > time_s) {
     input.clip_at_arrival = hand_motion(predicted_palm(time_s, arrive_s - step_s, blend),
@@ -196,8 +217,7 @@ bool ReachPlayer::step(double time_s,
     return false;
   }
   if (warp != nullptr && last_.arrive_s > arrive_s + 1e-3) {
-    const WarpKnot knot{last_.arrive_s, event_s_};
-    (void)warp->replan(time_s, {&knot, 1}, action->rate, step_s);
+    put_off(time_s, step_s, last_.arrive_s, blend);
   }
   point.set_target(last_.hand.p_in_world);
   if (last_.turns) {

@@ -29,6 +29,10 @@ struct ReachWish {
   ReachTarget target;
   ReachOptions options;
   ReachShare share;
+  /// Further captured reaches: with that of `action` a family, of which those nearest to
+  /// the target are blended (ReachFamily). All begin at their starts, without
+  /// synchronisation.
+  std::vector<std::string> family;
 };
 
 /// Returns the constraints by which the engine moves a hand: ids "reach left" and "reach
@@ -56,6 +60,9 @@ class ReachPlayer {
   /// Moves the target. Errors: check_target()'s; the old target stays.
   [[nodiscard]] Status aim(const ReachTarget& target);
   void release() { course_.release(); }
+  /// Adds a reach of the family that plays along: its event is moved with that of the
+  /// main one, and it stops with it. At most two.
+  void add_companion(ActionId action, double event_s);
 
   /// Answers whether the reach can succeed if its action began now, from the root's
   /// present place, without other actions.
@@ -68,6 +75,7 @@ class ReachPlayer {
             double step_s,
             BlendPlayer& blend,
             std::span<const RigidTransform> world_from_joint,
+            double lift_m,
             retarget::Adapter::Handle point,
             retarget::Adapter::Handle turn);
 
@@ -80,7 +88,11 @@ class ReachPlayer {
   [[nodiscard]] RigidTransform predicted_palm(double now_s,
                                               double time_s,
                                               const BlendPlayer& blend);
-  [[nodiscard]] double event_time_s(double now_s, const PhaseWarp& warp) const;
+  struct Companion {
+    ActionId action{};
+    double event_s = 0.0;
+  };
+  void put_off(double time_s, double step_s, double arrive_s, BlendPlayer& blend);
 
   const Skeleton* skeleton_;
   const retarget::BodyMap* map_;
@@ -92,6 +104,9 @@ class ReachPlayer {
   ReachCourse course_;
   ReachOutput last_;
   bool has_started_ = false;
+  std::array<Companion, 2> companions_{};
+  std::size_t companion_count_ = 0;
+  double lift_m_ = 0.0;
   RigidTransform palm_before_;
   retarget::NormalizedPose normalized_;
   std::vector<RigidTransform> joints_;

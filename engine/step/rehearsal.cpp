@@ -18,11 +18,16 @@ Rehearsal::Rehearsal(const Skeleton& skeleton, const retarget::BodyMap& map)
   adapted_.parent_from_joint.resize(skeleton.joints.size());
 }
 
-bool Rehearsal::predict(double now_s, double time_s, const BlendPlayer& blend) {
+bool Rehearsal::predict(double now_s,
+                        double time_s,
+                        const BlendPlayer& blend,
+                        double lift_m) {
   BlendPosture posture;
   if (!blend.predict(now_s, time_s, posture, root_)) return false;
   to_normalized(posture, blend.base().layout(), root_, map_->leg_length_m, normalized_);
   retarget::expand(normalized_, *skeleton_, *map_, joints_, pose_);
+  for (RigidTransform& joint : joints_) joint.translation.y += lift_m;
+  pose_.root_in_world.y += lift_m;
   return true;
 }
 

@@ -31,6 +31,7 @@ struct StandingFoot {
 /// The body after the last step, against the blend of the clips.
 struct BodyShift {
   glm::dvec3 hips_m{0.0};  ///< Displacement of the hips by the adaptation.
+  double lift_m = 0.0;     ///< By which the soles meet the floor, before that.
   std::array<StandingFoot, 2> feet{};
 };
 
@@ -43,7 +44,10 @@ class Rehearsal {
 
   /// Computes the joints of the blend on this body at a time, if nothing changes; false:
   /// nothing plays. Cost: some microseconds.
-  bool predict(double now_s, double time_s, const BlendPlayer& blend);
+  bool predict(double now_s,
+               double time_s,
+               const BlendPlayer& blend,
+               double lift_m = 0.0);
   /// The same for one clip alone, from the start of its path, at the origin.
   void sample(double source_s, const MotionClip& clip, const PostureLayout& layout);
   [[nodiscard]] std::span<const RigidTransform> joints() const { return joints_; }

@@ -8,15 +8,7 @@ namespace marey::live {
 namespace {
 
 const char* name(PageRunState state) {
-  switch (state) {
-    case PageRunState::kPlaying:
-      return "playing";
-    case PageRunState::kPaused:
-      return "paused";
-    case PageRunState::kEnded:
-      return "ended";
-  }
-  return "paused";
+  return state == PageRunState::kPlaying ? "playing" : "paused";
 }
 
 PageJson figure_object(const PageRunFigure& figure) {

@@ -20,7 +20,7 @@ struct PageRunFigure {
   std::optional<bool> passed{};   ///< nullopt: no bound, or no value.
 };
 
-enum class PageRunState { kPlaying, kPaused, kEnded };
+enum class PageRunState { kPlaying, kPaused };
 
 /// State of a scene that runs live, sent a few times a second.
 struct PageRun {

@@ -94,12 +94,22 @@ void Adapter::set_options(const AdaptOptions& options) {
   MAREY_ASSERT(check_options(options).has_value());
   MAREY_ASSERT(!state_->is_member());
   MemberHead& head = state_->member.head();
+  head.paused_balance = BalanceMode::kOff;
   const bool replan = (options.balance == BalanceMode::kOff) !=
                       (head.options.balance == BalanceMode::kOff);
   state_->turn_passage(options);
   head.options = options;
   head.control = options.control;
   if (replan) state_->replan();
+}
+
+void Adapter::use_balance(bool balance) {
+  MemberHead& head = state_->member.head();
+  if ((head.options.balance != BalanceMode::kOff) == balance) return;
+  const BalanceMode other = head.paused_balance;
+  MAREY_ASSERT(!balance || other != BalanceMode::kOff);
+  head.paused_balance = head.options.balance;
+  head.options.balance = other;
 }
 
 AdaptReport Adapter::adapt(const Pose& reference, double time_s, Pose& out) {
@@ -166,6 +176,11 @@ void Adapter::Handle::start(double time_s) {
 void Adapter::Handle::stop(double time_s) {
   MAREY_ASSERT(std::isfinite(time_s));
   state_->member.activations()[constraint_].stop(time_s);
+}
+
+void Adapter::Handle::set_share(double share) {
+  MAREY_ASSERT(share >= 0.0 && share <= 1.0);
+  state_->member.activations()[constraint_].set_share(share);
 }
 
 const ConstraintOutcome& Adapter::Handle::outcome() const {

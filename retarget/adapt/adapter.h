@@ -56,6 +56,8 @@ class Adapter {
     /// Starts or stops the constraint at `time_s`, with its own fade durations.
     void start(double time_s);
     void stop(double time_s);
+    /// Multiplies the activation by a share that the caller moves. Precondition: 0 to 1.
+    void set_share(double share);
     /// Outcome of the last adapt().
     [[nodiscard]] const ConstraintOutcome& outcome() const;
 
@@ -90,6 +92,11 @@ class Adapter {
   /// the fade returns from the blend of the last posture. Switching balance on or off
   /// allocates. Precondition: in range; the adapter is not a member of a crowd.
   void set_options(const AdaptOptions& options);
+
+  /// Switches balance off, or on again with the mode of the options that the adapter was
+  /// made or last set with. Keeps the plan, and so allocates nothing; permitted for
+  /// members of a crowd. Precondition: the options have balance.
+  void use_balance(bool balance);
 
   /// Adapts one posture. Precondition: `reference` is a posture of the character's
   /// skeleton, finite, with unit rotations. `out` is resized to the number of joints, so

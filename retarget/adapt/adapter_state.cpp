@@ -68,8 +68,15 @@ class OneJob final : public LaneJobs, public FadeJobs {
 AdapterWork::AdapterWork(const Plan& plan)
     : kernel(make_scalar_kernel(plan)), problem(plan) {}
 
-MembersStore::MembersStore(const SharedPlan& shared, std::size_t count)
-    : blocks(count * shared.layout.bytes), work(shared.plan) {}
+MembersStore::MembersStore(const SharedPlan& shared)
+    : work(shared.plan), block_bytes_(shared.layout.bytes) {}
+
+void MembersStore::grow(std::size_t count) {
+  chunks_.emplace_back(count * block_bytes_);
+  for (std::size_t i = 0; i < count; ++i) {
+    blocks.push_back(chunks_.back().get() + i * block_bytes_);
+  }
+}
 
 void adapt_member(const SharedPlan& shared,
                   const Member& member,
@@ -126,7 +133,12 @@ void AdapterState::replan() {
 }
 
 AdaptReport AdapterState::adapt(const Pose& reference, double time_s, Pose& out) {
-  adapt_member(*shared, member, reference, time_s, out, own ? own->work : store->work);
+  if (own) {
+    adapt_member(*shared, member, reference, time_s, out, own->work);
+  } else {
+    const std::scoped_lock lock(store->work_is_used);
+    adapt_member(*shared, member, reference, time_s, out, store->work);
+  }
   return member.head().report;
 }
 
@@ -134,7 +146,7 @@ void AdapterState::join(const AdapterState& first,
                         const std::shared_ptr<MembersStore>& all,
                         std::size_t place) {
   const std::size_t bytes = shared->layout.bytes;
-  std::byte* block = all->blocks.get() + place * bytes;
+  std::byte* block = all->blocks[place];
   std::copy_n(member.block(), bytes, block);
   if (*names == *first.names) names = first.names;
   shared = first.shared;

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <mutex>
+#include <vector>
 
 #include "core/character.h"
 #include "core/constraint.h"
@@ -32,10 +35,17 @@ void adapt_member(const SharedPlan& shared,
 
 /// Parts of an adapter that a crowd holds for all its members.
 struct MembersStore {
-  MemberMemory blocks;  ///< One block per member, in order.
+  std::vector<std::byte*> blocks;  ///< One per member.
   /// For postures that a member adapts by itself, one member at a time.
   AdapterWork work;
-  MembersStore(const SharedPlan& shared, std::size_t count);
+  std::mutex work_is_used;
+  explicit MembersStore(const SharedPlan& shared);
+  /// Makes place for more members. Blocks stay where they are.
+  void grow(std::size_t count);
+
+ private:
+  std::size_t block_bytes_;
+  std::vector<MemberMemory> chunks_;
 };
 
 /// Parts of an adapter that a member of a crowd does not need: inputs of its plan, and

@@ -14,31 +14,48 @@
 namespace marey::retarget {
 namespace {
 
-bool same_options(const AdaptOptions& a, const AdaptOptions& b) {
-  return a.method == b.method && a.control == b.control && a.balance == b.balance &&
-         a.max_iterations == b.max_iterations &&
+/// Maximum number of members for which memory is allocated ahead.
+constexpr std::size_t kMaxChunk = 16;
+
+bool same_options(const MemberHead& a_head, const MemberHead& b_head) {
+  const AdaptOptions& a = a_head.options;
+  const AdaptOptions& b = b_head.options;
+  // Balance may be switched off at the moment.
+  const auto balance = [](const MemberHead& head) {
+    return std::max(head.options.balance, head.paused_balance);
+  };
+  return a.method == b.method && a.control == b.control &&
+         balance(a_head) == balance(b_head) && a.max_iterations == b.max_iterations &&
          a.extremities_keep_orientation == b.extremities_keep_orientation;
 }
 
 }  // namespace
 
-/// Jobs of one thread: a contiguous range of members.
+/// Jobs of one thread: a contiguous range of those of the crowd.
 class Crowd::Jobs final : public LaneJobs, public FadeJobs {
  public:
-  /// Inputs of the whole crowd.
   struct Question {
-    std::span<const Pose> references;
+    std::span<const CrowdJob> jobs;
     double time_s = 0.0;
-    std::span<Pose> out;
-    std::span<AdaptReport> reports;
   };
 
-  Jobs(const SharedPlan& shared, std::byte* blocks, std::size_t max_count, int width)
-      : shared_(shared), blocks_(blocks), packed_(shared.plan), alone_(shared.plan) {
+  Jobs(const SharedPlan& shared, const MembersStore& store)
+      : shared_(shared), store_(store), packed_(shared.plan), alone_(shared.plan) {}
+
+  /// Makes place for this many jobs, and the lanes of a kernel.
+  void reserve(std::size_t max_count, int width) {
     postponed_.reserve(max_count);
     fading_.reserve(max_count);
-    for (int lane = 0; lane < width; ++lane) fading_problems_.emplace_back(shared.plan);
+    while (fading_problems_.size() < static_cast<std::size_t>(width)) {
+      fading_problems_.emplace_back(shared_.plan);
+    }
     fading_lanes_.resize(fading_problems_.size());
+  }
+
+  /// Adapts all jobs from `first` to `end` one after another.
+  void adapt_each(const Question& question, std::size_t first, std::size_t end) {
+    question_ = question;
+    for (std::size_t i = first; i < end; ++i) adapt_alone(i);
   }
 
   void begin(const Question& question, std::size_t first, std::size_t end) {
@@ -134,21 +151,21 @@ class Crowd::Jobs final : public LaneJobs, public FadeJobs {
   static constexpr std::size_t kFadingAhead = 2;
 
   [[nodiscard]] Member member(std::size_t i) const {
-    return {blocks_ + i * shared_.layout.bytes, shared_.layout};
+    return {store_.blocks[question_.jobs[i].member], shared_.layout};
   }
 
   void prefetch(std::size_t i) const {
     prefetch_member(member(i));
-    prefetch_pose(question_.references[i]);
-    prefetch_pose(question_.out[i]);
+    prefetch_pose(*question_.jobs[i].reference);
+    prefetch_pose(*question_.jobs[i].out);
   }
 
   // Prefetches the memory of later members: first the addresses, then the data.
   void call_ahead(std::size_t i) const {
     if (i + kNumbersAhead < end_) prefetch(i + kNumbersAhead);
     if (i + kAddressAhead < end_) {
-      prefetch_address(question_.references[i + kAddressAhead]);
-      prefetch_address(question_.out[i + kAddressAhead]);
+      prefetch_address(*question_.jobs[i + kAddressAhead].reference);
+      prefetch_address(*question_.jobs[i + kAddressAhead].out);
     }
   }
 
@@ -161,26 +178,23 @@ class Crowd::Jobs final : public LaneJobs, public FadeJobs {
            packed.balance.data(),
            static_cast<int>(i)};
     return prepare_member(
-        shared_.plan, one, question_.references[i], question_.time_s, packed);
+        shared_.plan, one, *question_.jobs[i].reference, question_.time_s, packed);
   }
 
   void write(std::size_t i, const float* result) const {
-    member(i).write(shared_.plan, result, question_.out[i]);
-    if (!question_.reports.empty()) question_.reports[i] = member(i).head().report;
+    const CrowdJob& job = question_.jobs[i];
+    member(i).write(shared_.plan, result, *job.out);
+    if (job.report != nullptr) *job.report = member(i).head().report;
   }
 
   void adapt_alone(std::size_t i) {
-    adapt_member(shared_,
-                 member(i),
-                 question_.references[i],
-                 question_.time_s,
-                 question_.out[i],
-                 alone_);
-    if (!question_.reports.empty()) question_.reports[i] = member(i).head().report;
+    const CrowdJob& job = question_.jobs[i];
+    adapt_member(shared_, member(i), *job.reference, question_.time_s, *job.out, alone_);
+    if (job.report != nullptr) *job.report = member(i).head().report;
   }
 
   const SharedPlan& shared_;
-  std::byte* blocks_;
+  const MembersStore& store_;
   Question question_;
   PackedProblem packed_;
   AdapterWork alone_;
@@ -203,11 +217,47 @@ struct Crowd::Worker {
 };
 
 struct Crowd::State {
+  CrowdOptions options;
   std::shared_ptr<const SharedPlan> shared;
   std::shared_ptr<MembersStore> store;
   std::vector<Adapter> members;
   std::vector<Worker> workers;
+  std::vector<CrowdJob> jobs;  ///< As many as members at most.
+
+  void reserve(std::size_t count);
 };
+
+void Crowd::State::reserve(std::size_t count) {
+  if (jobs.capacity() < count) jobs.reserve(std::max(count, 2 * jobs.capacity()));
+  const bool has_wide = count >= options.min_lane_jobs;
+  for (Worker& worker : workers) {
+    if (has_wide && worker.kernel == nullptr) {
+      worker.kernel = make_lane_kernel(options.width, shared->plan);
+      MAREY_ASSERT(worker.kernel != nullptr);
+    }
+    worker.jobs->reserve(jobs.capacity(), has_wide ? worker.kernel->width() : 0);
+  }
+  const std::size_t places = store->blocks.size();
+  if (places < count) {
+    store->grow(std::max(count - places, std::min(places, kMaxChunk)));
+  }
+}
+
+Status Crowd::check_like(const AdapterState& first,
+                         const AdapterState& other,
+                         std::size_t number) {
+  const bool same = other.shared->plan == first.shared->plan;
+  if (same && same_options(other.member.head(), first.member.head())) {
+    return Done{};
+  }
+  return bad_input(
+      other.own->character.name + " (member " + std::to_string(number) + ")",
+      same ? "its options are not those of the crowd's first member"
+           : "its joints, groups, limits or constraints differ in structure "
+             "from those of the crowd's first member" +
+                 (first.own ? ", " + first.own->character.name : std::string()),
+      "put it into a separate crowd");
+}
 
 Result<Crowd> Crowd::make(std::vector<Adapter> members, const CrowdOptions& options) {
   if (members.empty()) {
@@ -224,37 +274,40 @@ Result<Crowd> Crowd::make(std::vector<Adapter> members, const CrowdOptions& opti
   }
   const AdapterState& first = *members[0].state_;
   for (std::size_t i = 0; i < members.size(); ++i) {
-    const AdapterState& other = *members[i].state_;
-    MAREY_ASSERT(!other.is_member());
-    const bool same = other.shared->plan == first.shared->plan;
-    if (same && same_options(other.member.head().options, first.member.head().options)) {
-      continue;
-    }
-    return bad_input(
-        other.own->character.name + " (member " + std::to_string(i) + ")",
-        same ? "its options are not those of the crowd's first member"
-             : "its joints, groups, limits or constraints differ in structure "
-               "from those of the crowd's first member, " +
-                   first.own->character.name,
-        "put it into a separate crowd");
+    MAREY_ASSERT(!members[i].state_->is_member());
+    const Status like = check_like(first, *members[i].state_, i);
+    if (!like) return like.error();
   }
   auto state = std::make_unique<State>();
+  state->options = options;
   state->shared = first.shared;
-  state->store = std::make_shared<MembersStore>(*first.shared, members.size());
+  state->store = std::make_shared<MembersStore>(*first.shared);
+  for (int t = 0; t < options.threads; ++t) {
+    state->workers.push_back(
+        {nullptr, std::make_unique<Jobs>(*state->shared, *state->store)});
+  }
+  state->reserve(members.size());
   state->members = std::move(members);
   for (std::size_t i = 0; i < state->members.size(); ++i) {
     state->members[i].state_->join(*state->members[0].state_, state->store, i);
   }
-  for (int t = 0; t < options.threads; ++t) {
-    auto kernel = make_lane_kernel(options.width, state->shared->plan);
-    MAREY_ASSERT(kernel != nullptr);
-    auto jobs = std::make_unique<Jobs>(*state->shared,
-                                       state->store->blocks.get(),
-                                       state->members.size(),
-                                       kernel->width());
-    state->workers.push_back({std::move(kernel), std::move(jobs)});
-  }
   return Crowd(std::move(state));
+}
+
+Result<std::size_t> Crowd::add(Adapter member) {
+  State& s = *state_;
+  const std::size_t number = s.members.size();
+  MAREY_ASSERT(!member.state_->is_member());
+  const Status like = check_like(*s.members[0].state_, *member.state_, number);
+  if (!like) return like.error();
+  s.reserve(number + 1);
+  member.state_->join(*s.members[0].state_, s.store, number);
+  s.members.push_back(std::move(member));
+  return number;
+}
+
+bool Crowd::takes(const Adapter& member) const {
+  return check_like(*state_->members[0].state_, *member.state_, 0).has_value();
 }
 
 Crowd::Crowd(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -279,15 +332,47 @@ void Crowd::adapt(std::span<const Pose> references,
   const std::size_t count = s.members.size();
   MAREY_ASSERT(references.size() == count && out.size() == count);
   MAREY_ASSERT(reports.empty() || reports.size() == count);
-  const AdaptOptions& options = s.members[0].state_->member.head().options;
+  s.jobs.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    s.jobs.push_back(
+        {i, &references[i], &out[i], reports.empty() ? nullptr : &reports[i]});
+  }
+  adapt_jobs(s.members[0].state_->member.head().options, time_s);
+}
+
+void Crowd::adapt(std::span<const CrowdJob> jobs, double time_s) {
+  State& s = *state_;
+  MAREY_ASSERT(jobs.size() <= s.members.size());
+  // Those with balance are solved by another task than those without.
+  for (const bool balance : {false, true}) {
+    const AdaptOptions* options = nullptr;
+    s.jobs.clear();
+    for (const CrowdJob& job : jobs) {
+      const MemberHead& head = s.members[job.member].state_->member.head();
+      if ((head.options.balance != BalanceMode::kOff) != balance) continue;
+      options = &head.options;
+      s.jobs.push_back(job);
+    }
+    if (options != nullptr) adapt_jobs(*options, time_s);
+  }
+}
+
+void Crowd::adapt_jobs(const AdaptOptions& options, double time_s) {
+  State& s = *state_;
+  const std::size_t count = s.jobs.size();
   const LaneTask task = task_of(*s.shared, options, options.control);
   const auto work = [&](std::size_t t) {
     const std::size_t threads = s.workers.size();
     const Worker& worker = s.workers[t];
     Jobs& jobs = *worker.jobs;
-    jobs.begin({references, time_s, out, reports},
-               count * t / threads,
-               count * (t + 1) / threads);
+    const Jobs::Question question{s.jobs, time_s};
+    const std::size_t first = count * t / threads;
+    const std::size_t end = count * (t + 1) / threads;
+    if (worker.kernel == nullptr || end - first < s.options.min_lane_jobs) {
+      jobs.adapt_each(question, first, end);
+      return;
+    }
+    jobs.begin(question, first, end);
     // Members that limbs suffice for are solved first, so that all lanes of whole-body
     // steps are used. With balance there are none.
     if (!task.shape.rows.balance) worker.kernel->sift(task, jobs);

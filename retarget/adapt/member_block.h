@@ -17,6 +17,8 @@ namespace marey::retarget {
 struct MemberHead {
   double unit_m = 1.0;  ///< BodyNumbers::unit_m.
   AdaptOptions options;
+  /// Mode of the options while balance is switched off; kOff: it is not.
+  BalanceMode paused_balance = BalanceMode::kOff;
   std::optional<glm::dvec3> com_in_world;  ///< Target of the centre of mass.
   glm::dvec3 origin_in_world{0.0};         ///< Root of the current reference.
   Control control = Control::kPriority;    ///< Used by the current solve.

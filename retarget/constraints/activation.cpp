@@ -66,7 +66,7 @@ double LiveActivation::at(double time_s) const {
     const double left = 1.0 - ramp_of(changes_[i], time_s);
     active = changes_[i].starts ? 1.0 - (1.0 - active) * left : active * left;
   }
-  return active;
+  return share_ * active;
 }
 
 }  // namespace marey::retarget

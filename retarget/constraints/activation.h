@@ -38,6 +38,10 @@ class LiveActivation {
   void start(double time_s);
   void stop(double time_s);
 
+  /// Multiplies the activation by this from now on: 0 to 1, at first 1. The caller moves
+  /// it continuously.
+  void set_share(double share) { share_ = share; }
+
   /// Returns the activation, 0 to 1. Precondition: finite.
   [[nodiscard]] double at(double time_s) const;
 
@@ -53,6 +57,7 @@ class LiveActivation {
   bool was_active_ = false;  ///< Before all changes.
   double start_duration_s_;
   double stop_duration_s_;
+  double share_ = 1.0;
   // Full only after many starts and stops within the durations; then the oldest is
   // treated as complete, which it nearly is.
   std::array<Change, 16> changes_{};

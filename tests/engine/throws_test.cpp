@@ -13,6 +13,7 @@
 
 #include "tests/engine/made_base.h"
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/program/count_allocations.h"
 
 namespace marey::engine {
 namespace {
@@ -173,6 +174,123 @@ TEST(EngineThrows, ChangeOneParameterOnRandomBodies) {
     expect_parameters(
         judged.result.measured, wanted, "measured, seed " + std::to_string(seed));
   }
+}
+
+TEST(EngineThrows, MeetAPointThatMoves) {
+  testing::Dice dice(23);
+  const auto base = made_base();
+  for (int seed = 0; seed < 12; ++seed) {
+    Engine engine = *Engine::make(base, {.step_hz = 60.0});
+    CharacterSpec spec =
+        made_character(seed == 0 ? made_skeleton() : testing::random_humanoid(dice));
+    spec.reaches = true;
+    spec.start = {dice.between(-3.0, 3.0), 0.5, dice.between(-3.0, 3.0)};
+    const CharacterId ann = *engine.add(spec);
+    ThrowWish wish = throws();
+    wish.asked.speed_m_s = 8.0;
+    wish.ball.drag_1_m = seed % 2 == 0 ? 0.0 : 0.011;
+    const double away_rad = spec.start.heading_rad + dice.between(-0.4, 0.4);
+    glm::dvec3 point(spec.start.x_m + 3.0 * std::sin(away_rad),
+                     dice.between(0.5, 1.5),
+                     spec.start.z_m + 3.0 * std::cos(away_rad));
+    wish.aim_in_world = point;
+    const auto answer = engine.ask(ann, wish);
+    ASSERT_TRUE(answer);
+    EXPECT_TRUE(answer->aim_in_range);
+    ASSERT_TRUE(engine.play(ann, wish));
+    engine.advance(40);
+    point += glm::dvec3(0.1, -0.1, 0.1);
+    ASSERT_TRUE(engine.aim_ball(ann, 1, point));
+    engine.advance(40);
+    const auto& result = engine.player(ann).throwing(1)->result();
+    ASSERT_TRUE(result.has_value());
+    // The flight in steps of its own.
+    glm::dvec3 p = result->ball.p_in_world;
+    glm::dvec3 v = result->ball.velocity_m_s;
+    double nearest_m = 10.0;
+    constexpr double kStep_s = 1e-4;
+    for (int i = 0; i < 10000; ++i) {
+      v += kStep_s *
+           (glm::dvec3(0.0, -9.81, 0.0) - wish.ball.drag_1_m * glm::length(v) * v);
+      p += kStep_s * v;
+      nearest_m = std::min(nearest_m, glm::distance(p, point));
+    }
+    EXPECT_LT(nearest_m, 0.01) << seed;
+    ASSERT_TRUE(result->aim_miss_m.has_value());
+    EXPECT_NEAR(*result->aim_miss_m, nearest_m, 0.01);
+  }
+}
+
+TEST(EngineThrows, WithoutChangesAreTheirClip) {
+  const auto base = made_base();
+  Engine thrown = *Engine::make(base);
+  Engine played = *Engine::make(base);
+  CharacterSpec spec = made_character();
+  spec.reaches = true;
+  const CharacterId ann = *thrown.add(spec);
+  const CharacterId bob = *played.add(spec);
+  ASSERT_TRUE(thrown.play(ann, throws()));
+  ASSERT_TRUE(played.play(bob, throws().action));
+  for (int i = 0; i < 110; ++i) {
+    thrown.advance();
+    played.advance();
+    const PosedStep a = posed_step(thrown, ann, 1);
+    const PosedStep b = posed_step(played, bob, 1);
+    ASSERT_LT(glm::distance(a.ball, b.ball), 0.02) << i;
+  }
+}
+
+TEST(EngineThrows, StepsAllocateNothing) {
+  Engine engine = *Engine::make(made_base());
+  CharacterSpec spec = made_character();
+  spec.reaches = true;
+  const CharacterId ann = *engine.add(spec);
+  ThrowWish wish = throws();
+  wish.asked.speed_m_s = 6.0;
+  ASSERT_TRUE(engine.play(ann, wish));
+  engine.advance(2);
+  const long before = testing::allocations();
+  engine.advance(110);
+  EXPECT_EQ(testing::allocations(), before);
+  EXPECT_TRUE(engine.player(ann).throwing(1)->is_over());
+}
+
+TEST(EngineThrows, AreRefusedByName) {
+  Engine engine = *Engine::make(made_base());
+  const CharacterId none = *engine.add(made_character());
+  EXPECT_FALSE(engine.play(none, throws()));  // No constraints for its hands.
+  CharacterSpec spec = made_character();
+  spec.reaches = true;
+  const CharacterId ann = *engine.add(spec);
+  static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const auto is_refused = [&](const auto& change, const std::string& because) {
+    ThrowWish wish = throws();
+    change(wish);
+    const auto answer = engine.play(ann, wish);
+    ASSERT_FALSE(answer);
+    EXPECT_NE(answer.error().message().find(because), std::string::npos)
+        << answer.error().message();
+    EXPECT_FALSE(engine.ask(ann, wish));
+  };
+  is_refused([](ThrowWish& w) { w.side = 2; }, "hand");
+  is_refused([](ThrowWish& w) { w.release = "never"; }, "never");
+  is_refused([](ThrowWish& w) { w.action.clip = "thrw"; }, "thrw");
+  is_refused([](ThrowWish& w) { w.asked.speed_m_s = kNaN; }, "speed_m_s");
+  is_refused([](ThrowWish& w) { w.asked.elevation_rad = 2.0; }, "elevation_rad");
+  is_refused([](ThrowWish& w) { w.asked.release_s = 9.0; }, "release_s");
+  is_refused([](ThrowWish& w) { w.asked.release_s = 0.1; }, "leaves at");
+  is_refused([](ThrowWish& w) { w.aim_in_world = glm::dvec3(kNaN); }, "aim");
+  is_refused([](ThrowWish& w) { w.half_width_s = 0.0; }, "half width");
+  is_refused([](ThrowWish& w) { w.ball.drag_1_m = -1.0; }, "ball");
+  is_refused(
+      [](ThrowWish& w) {
+        w.aim_in_world = glm::dvec3(1.0);
+        w.asked.azimuth_rad = 0.1;
+      },
+      "both");
+  EXPECT_FALSE(engine.aim_ball(ann, 1, glm::dvec3(1.0)));  // Nothing is thrown.
+  ASSERT_TRUE(engine.play(ann, throws()));
+  EXPECT_FALSE(engine.aim_ball(ann, 1, glm::dvec3(1.0)));  // It has no aim.
 }
 
 }  // namespace

@@ -46,12 +46,12 @@ FootStep foot_step(const FigureBody& body,
   const glm::dvec3 to_ball = out.world_from_t_pose * foot.ball_from_ankle_in_t_pose;
   out.ankle_on_floor = joints[index(ankle)].translation;
   out.ball_on_floor = out.ankle_on_floor + to_ball;
-  if (!body.floor_moved_m.empty()) {
-    out.ankle_on_floor -= body.floor_moved_m[step][s];
-    out.ball_on_floor -= body.floor_moved_m[step][s];
-  }
+  const FigureFloor floor = body.floor.empty() ? FigureFloor{} : body.floor[step][s];
+  out.ankle_on_floor -= floor.moved_m;
+  out.ball_on_floor -= floor.moved_m;
   if (body.stands.empty() || !body.stands[step][s]) return out;
-  const double pitched_m = to_ball.y - foot.ball_from_ankle_in_t_pose.y;
+  const double pitched_m =
+      glm::dot(to_ball, floor.normal_in_world) - foot.ball_from_ankle_in_t_pose.y;
   out.stance = stance_of(0.0, pitched_m, kFlatFoot_legs * body.map->leg_length_m);
   return out;
 }

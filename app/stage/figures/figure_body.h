@@ -20,6 +20,12 @@
 
 namespace marey::app {
 
+/// The floor under a foot in one step.
+struct FigureFloor {
+  glm::dvec3 moved_m{0.0};  ///< Since the start.
+  glm::dvec3 normal_in_world{0.0, 1.0, 0.0};
+};
+
 /// The steps of a scene as one body played them. Borrows everything.
 struct FigureBody {
   std::string id;
@@ -31,8 +37,8 @@ struct FigureBody {
   std::span<const Pose> references;
   /// Left, right: the foot stands; empty: not kept.
   std::span<const std::array<bool, 2>> stands;
-  /// Displacement of the floor under each foot since the start [m]; empty: still.
-  std::span<const std::array<glm::dvec3, 2>> floor_moved_m;
+  /// Left, right; empty: still and level.
+  std::span<const std::array<FigureFloor, 2>> floor;
 };
 
 /// Steps of a scene in which a figure is measured.

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/stage/figures/foot_figures.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -16,16 +19,14 @@ constexpr double kMillimetres = 1000.0;
 /// One point of a foot that stands from time to time.
 class StandingPoint {
  public:
-  void step(bool stands, const glm::dvec3& p_on_floor, double time_s, WorstValue& worst) {
-    if (!stands) {
-      stands_ = false;
-      return;
-    }
-    if (!stands_) since_on_floor_ = p_on_floor;
-    stands_ = true;
+  /// Returns the displacement since it began to stand; nullopt: it does not. [mm]
+  std::optional<double> step(bool stands, const glm::dvec3& p_on_floor) {
+    if (stands && !stands_) since_on_floor_ = p_on_floor;
+    stands_ = stands;
+    if (!stands) return std::nullopt;
     const double x_m = p_on_floor.x - since_on_floor_.x;
     const double z_m = p_on_floor.z - since_on_floor_.z;
-    worst.add(kMillimetres * std::hypot(x_m, z_m), time_s);
+    return kMillimetres * std::hypot(x_m, z_m);
   }
 
  private:
@@ -41,17 +42,18 @@ double yaw_of(const glm::dquat& world_from_t_pose) {
 }  // namespace
 
 WorstValue foot_slide_mm(std::span<const FootStep> steps) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
   WorstValue worst;
   StandingPoint ankle;
   StandingPoint ball;
   for (const FootStep& step : steps) {
     const bool flat = step.stance == FootStance::kFlat;
-    ankle.step(flat || step.stance == FootStance::kHeel,
-               step.ankle_on_floor,
-               step.time_s,
-               worst);
-    ball.step(
-        flat || step.stance == FootStance::kBall, step.ball_on_floor, step.time_s, worst);
+    const bool on_heel = flat || step.stance == FootStance::kHeel;
+    const bool on_ball = flat || step.stance == FootStance::kBall;
+    const double moved_mm =
+        std::min(ankle.step(on_heel, step.ankle_on_floor).value_or(kNone),
+                 ball.step(on_ball, step.ball_on_floor).value_or(kNone));
+    if (on_heel || on_ball) worst.add(moved_mm, step.time_s);
   }
   return worst;
 }

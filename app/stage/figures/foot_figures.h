@@ -29,9 +29,10 @@ struct FootStep {
   glm::dquat world_from_t_pose{1.0, 0.0, 0.0, 0.0};
 };
 
-/// Returns the largest displacement along the floor of the standing points since they
-/// began to stand: the ankle on heel or whole foot, the toe joint on ball or whole foot.
-/// [mm] Linear.
+/// Returns the largest displacement of the foot along the floor since it began to stand
+/// on the part that stands: of the ankle on the heel, of the toe joint on the ball, of
+/// the one that moved less on the whole foot, since a foot that turns about one of them
+/// does not slide (foot_twist_deg()). [mm] Linear.
 [[nodiscard]] WorstValue foot_slide_mm(std::span<const FootStep> steps);
 
 /// Returns the largest turn of the foot about the vertical since it began to stand: the

@@ -23,8 +23,8 @@ Timestamp StepClock::due(std::int64_t step) const {
   return start_ + Timestamp(std::llround(static_cast<double>(step) * period_ns_));
 }
 
-Timestamp StepClock::next() const {
-  return due(done_ + 1);
+Timestamp StepClock::next(int steps) const {
+  return due(done_ + steps);
 }
 
 int StepClock::take_due(Timestamp now) {

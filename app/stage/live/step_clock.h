@@ -24,8 +24,8 @@ class StepClock {
   /// A `now` before an earlier one returns 0.
   [[nodiscard]] int take_due(Timestamp now);
 
-  /// Returns the time at which the next step is due.
-  [[nodiscard]] Timestamp next() const;
+  /// Returns the time at which the next `steps` steps are due.
+  [[nodiscard]] Timestamp next(int steps = 1) const;
 
   /// Returns the number of steps skipped since the construction.
   [[nodiscard]] std::int64_t skipped() const { return skipped_; }

@@ -26,6 +26,7 @@ test('values have three significant digits, and a dash before they are measured'
   assert.equal(figureText({value: 3.456, unit: 'percent'}), '3.46 percent');
   assert.equal(figureText({value: -1234.5, unit: ''}), '-1235');
   assert.equal(timeText({time_s: 12.34, duration_s: 60}), '12.3 of 60.0 s');
+  assert.equal(timeText({time_s: 61, duration_s: 60}), '61.0 s, the script ended');
 });
 
 test('messages about the run and the targets are accepted', () => {
@@ -51,6 +52,6 @@ test('targets of another scene are ignored', () => {
 
 test('the pill shows the state of the scene', () => {
   assert.equal(pillOf(true, false, null, 0, 'playing').words, 'scene runs');
-  assert.equal(pillOf(true, false, null, 0, 'ended').words, 'scene has ended');
+  assert.equal(pillOf(true, false, null, 0, 'paused').words, 'scene is paused');
   assert.equal(pillOf(false, false, null, 0, 'playing').state, 'offline');
 });

@@ -64,7 +64,7 @@ export function stageScene(rate_hz, count) {
 /** Places of the targets; `held`: places by index of those that a page holds. */
 export function targetsAt(time_s, held) {
   return {type: 'targets', held: [0, 1].map((i) => i in held), p_in_world: [0, 1].map((i) =>
-    held[i] ?? [0.5 - i + 0.1 * Math.sin(time_s), 1.2, 0.6])};
+    held[i] ?? [4.5 - i + 0.1 * Math.sin(time_s), 1.2, 0.6])};
 }
 
 export function runAt(state, time_s) {

@@ -32,6 +32,8 @@ TEST(PageRequest, ReadsEveryTypeOfRequest) {
             WizardAction::kAccept);
   EXPECT_TRUE(read<RecordRequest>(R"({"type":"record","on":true})").on);
   EXPECT_TRUE(read<ThumbnailsRequest>(R"({"type":"thumbnails","on":true,"x":1})").on);
+  EXPECT_EQ(read<RunRequest>(R"({"type":"run","action":"restart"})").action,
+            RunAction::kRestart);
   EXPECT_EQ(read<TrialRequest>(R"({"type":"trial","name":"walk"})").name, "walk");
 }
 

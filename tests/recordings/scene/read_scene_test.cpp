@@ -72,9 +72,9 @@ TEST(SceneSamples, KarateNeverDependsInACircle) {
     EXPECT_NEAR(bodies[link.body].place_xz_m.x, bodies[link.on].place_xz_m.x, 1e-9);
   }
   std::vector<std::size_t> rounds;
-  solve_rounds(all, 1.5, bodies.size(), rounds);
+  solve_rounds(all, 1.6, bodies.size(), rounds);
   EXPECT_EQ(rounds, (std::vector<std::size_t>{0, 0, 0, 0, 1, 1, 1, 1}));
-  solve_rounds(all, 4.5, bodies.size(), rounds);
+  solve_rounds(all, 6.7, bodies.size(), rounds);
   EXPECT_EQ(rounds, (std::vector<std::size_t>{1, 1, 1, 1, 0, 0, 0, 0}));
 }
 

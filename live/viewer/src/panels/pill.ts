@@ -21,7 +21,7 @@ export interface Pill {
   why: string;
 }
 
-const RUN_WORDS = {playing: 'scene runs', paused: 'scene is paused', ended: 'scene has ended'};
+const RUN_WORDS = {playing: 'scene runs', paused: 'scene is paused'};
 
 /** `silent_ms`: time since the last status. `status` null: none received yet. `run`: state of a
  *  scene of marey stage; null: none is shown. */

@@ -15,8 +15,9 @@ export function figureText({value, unit}: Pick<FigureWords, 'value' | 'unit'>): 
   return unit ? `${value.toFixed(digits)} ${unit}` : value.toFixed(digits);
 }
 
-/** Returns the time of a scene: "12.3 of 30.0 s". */
+/** Returns the time of a scene: "12.3 of 30.0 s". A scene goes on after its duration. */
 export function timeText({time_s, duration_s}: Pick<RunWords, 'time_s' | 'duration_s'>): string {
+  if (time_s > duration_s) return `${time_s.toFixed(1)} s, the script ended`;
   return `${time_s.toFixed(1)} of ${duration_s.toFixed(1)} s`;
 }
 
@@ -55,7 +56,6 @@ export class RunPanel {
     this.state = run.state;
     const isPlaying = run.state === 'playing';
     setText(this.play, isPlaying ? 'Pause scene' : 'Play scene');
-    this.play.disabled = run.state === 'ended';
     setText(this.time, timeText(run));
     this.section.tell(run.state);
     this.figures.hidden = run.figures.length === 0;

@@ -19,7 +19,7 @@ export interface FigureWords {
 }
 
 export interface RunWords {
-  type: 'run'; state: 'playing' | 'paused' | 'ended'; time_s: number; duration_s: number;
+  type: 'run'; state: 'playing' | 'paused'; time_s: number; duration_s: number;
   figures: FigureWords[]; messages: string[];
 }
 

@@ -33,15 +33,15 @@ TEST(BodyFigures, ARaisedHeelStandsOnItsBall) {
 
 TEST(BodyFigures, AFloorThatMovesCarriesTheFeet) {
   MadeFigureBody made;
-  std::vector<std::array<glm::dvec3, 2>> moved;
+  std::vector<std::array<FigureFloor, 2>> floor;
   for (std::size_t i = 0; i < 120; ++i) {
     const glm::dvec3 by(0.002 * static_cast<double>(i), 0.0, 0.0);
     made.poses[i].root_in_world += by;
-    moved.push_back({by, by});
+    floor.push_back({FigureFloor{by}, FigureFloor{by}});
   }
   FigureBody body = made.body();
   EXPECT_NEAR(foot_slide_mm(foot_steps(body, {})[0]).value, 238.0, 1e-6);
-  body.floor_moved_m = moved;
+  body.floor = floor;
   EXPECT_NEAR(foot_slide_mm(foot_steps(body, {})[0]).value, 0.0, 1e-9);
 }
 

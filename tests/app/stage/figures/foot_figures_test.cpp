@@ -24,7 +24,7 @@ std::vector<FootStep> still_foot(FootStance stance, int steps) {
 TEST(FootFigures, AStillFootNeitherSlidesNorTwists) {
   const auto steps = still_foot(FootStance::kFlat, 30);
   EXPECT_EQ(foot_slide_mm(steps).value, 0.0);
-  EXPECT_EQ(foot_slide_mm(steps).count, 60U);
+  EXPECT_EQ(foot_slide_mm(steps).count, 30U);
   EXPECT_NEAR(foot_twist_deg(steps).value, 0.0, 1e-9);
 }
 
@@ -32,12 +32,21 @@ TEST(FootFigures, ASlideIsMeasuredFromTheBeginningOfTheStance) {
   auto steps = still_foot(FootStance::kFlat, 30);
   for (std::size_t i = 10; i < 30; ++i) {
     steps[i].ankle_on_floor += glm::dvec3(0.003, 0.5, 0.004);  // Heights do not count.
+    steps[i].ball_on_floor += glm::dvec3(0.003, 0.0, 0.004);
   }
   const WorstValue slide = foot_slide_mm(steps);
   EXPECT_NEAR(slide.value, 5.0, 1e-9);
   EXPECT_NEAR(slide.time_s, 10 / 60.0, 1e-12);
   for (std::size_t i = 0; i < 10; ++i) steps[i].stance = FootStance::kNone;
   EXPECT_NEAR(foot_slide_mm(steps).value, 0.0, 1e-9);
+}
+
+TEST(FootFigures, AFootThatTurnsAboutItsBallDoesNotSlide) {
+  auto steps = still_foot(FootStance::kFlat, 10);
+  steps[7].ankle_on_floor.x += 0.05;
+  EXPECT_NEAR(foot_slide_mm(steps).value, 0.0, 1e-9);
+  steps[7].ball_on_floor.x += 0.02;
+  EXPECT_NEAR(foot_slide_mm(steps).value, 20.0, 1e-9);
 }
 
 TEST(FootFigures, OnlyTheStandingPointCounts) {

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "app/stage/stage_record.h"
+#include "app/stage/trial_log.h"
+#include "core/engine/scene_figure.h"
+
+namespace marey::app {
+
+/// Returns the deviation of a throw from the asked one, in the unit of the kind: place of
+/// the wrist [mm], angle between both directions of the ball [deg], speed [percent],
+/// time of the release [ms]. Precondition: a kind of throws.
+[[nodiscard]] double throw_figure(SceneFigureKind kind, const StageThrow& thrown);
+
+/// Converts StageThrow::asked or StageThrow::measured to the units of a trial list.
+[[nodiscard]] TrialValues trial_values(const std::array<double, 7>& values);
+
+}  // namespace marey::app
