@@ -51,10 +51,6 @@ BlendPlayer::BlendPlayer(std::shared_ptr<const MotionBase> base,
 
 void BlendPlayer::add(const Action& action) {
   MAREY_ASSERT(has_room());
-  if (count_ == actions_.size()) actions_.resize(count_ + 1);
-  if (warps_.size() < std::min(count_, kMaxAlive) + 1) {
-    warps_.push_back(std::make_unique<PhaseWarp>());
-  }
   std::size_t at = count_;
   while (at > 0 && actions_[at - 1].layer > action.layer) --at;
   for (std::size_t i = count_; i > at; --i) {

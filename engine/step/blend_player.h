@@ -158,11 +158,11 @@ class BlendPlayer {
   std::shared_ptr<const MotionBase> base_;
   Rig rig_;
   BlendPlayerOptions options_;
-  /// The first `count_` ones, ascending by layer, then by id. add() alone allocates.
-  std::vector<Action> actions_;
+  std::array<Action, kMaxActions> actions_{};  ///< Ascending by layer, then by id.
   std::size_t count_ = 0;
-  /// For actions that are alive, and one that begins: kMaxAlive + 1 at most.
-  std::vector<std::unique_ptr<PhaseWarp>> warps_;
+  /// For actions that are alive, and one that begins.
+  using Warps = std::array<PhaseWarp, kMaxAlive + 1>;
+  std::unique_ptr<Warps> warps_ = std::make_unique<Warps>();
   std::array<PerGroup, kMaxActions> weights_{};
 
   bool is_known_ = false;   ///< There is a posture.

@@ -193,12 +193,12 @@ void BlendPlayer::choose_landing(const Action& lead_action,
 
 void BlendPlayer::place_warp(Action& action, double time_s) {
   limit_alive(time_s);
-  for (const std::unique_ptr<PhaseWarp>& warp : warps_) {
+  for (PhaseWarp& warp : *warps_) {
     const bool is_taken = std::ranges::any_of(actions(), [&](const Action& other) {
-      return other.is_alive() && other.warp.get() == warp.get();
+      return other.is_alive() && other.warp.get() == &warp;
     });
     if (is_taken) continue;
-    action.warp.place(warp.get());
+    action.warp.place(&warp);
     return;
   }
 }
