@@ -189,7 +189,7 @@ class Engine {
   std::vector<std::unique_ptr<retarget::Crowd>> crowds_;
   std::vector<std::size_t> crowd_of_;  ///< By character.
   std::vector<std::vector<retarget::CrowdJob>>
-      jobs_;                           ///< By crowd: of the current block.
+      jobs_;                           ///< The jobs of the current block, by crowd.
   std::vector<char> adapts_;           ///< By character, in this step.
   std::vector<std::int64_t> stepped_;  ///< By character: number of its last step.
   bool is_stepping_ = false;           ///< Between begin_step() and end_step().

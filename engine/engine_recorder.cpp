@@ -36,7 +36,7 @@ EngineRequest empty_request(const char* kind) {
   return out;
 }
 
-// A whole number of a request; nullopt: there is none at this place.
+// A whole number of a request; nullopt: no such number at this place.
 std::optional<std::int64_t> whole_at(const EngineRequest& request, std::size_t i) {
   if (i >= request.numbers.size()) return std::nullopt;
   const double number = request.numbers[i];

@@ -15,7 +15,7 @@
 
 namespace marey::engine {
 
-/// Passes requests to an engine, and keeps those that it accepts, so that the run can be
+/// Passes requests to an engine, and keeps the accepted ones, so that the run can be
 /// repeated to the byte. Requests that go to the engine directly, changes of its
 /// CharacterPlayers and of constraints are not recorded. Recording allocates.
 class EngineRecorder {

@@ -22,4 +22,5 @@ set(live_LAYERS udp vmc page web)
 set(app_LAYERS
   shell motion pages adapt convert print plan record check markers process retarget
   live_chain view edit jump library/sources library/find library/labels library/export
-  library/build library/check library/page library engine live inspect .)
+  library/build library/check library/page library engine live stage/run stage/figures
+  stage/live stage inspect .)

@@ -11,8 +11,8 @@
 
 #include "app/shell/console.h"
 #include "app/stage/live/stage_live.h"
-#include "app/stage/scene_run.h"
-#include "app/stage/stage_bodies.h"
+#include "app/stage/run/scene_run.h"
+#include "app/stage/run/stage_bodies.h"
 #include "core/base/result.h"
 
 namespace marey::app {

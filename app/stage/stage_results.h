@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/stage/figures/measure_figures.h"
-#include "app/stage/stage_bodies.h"
-#include "app/stage/stage_record.h"
+#include "app/stage/run/stage_bodies.h"
+#include "app/stage/run/stage_record.h"
 #include "core/base/result.h"
 #include "core/finding.h"
 

@@ -8,8 +8,8 @@
 //
 // Throws: CMU 02_05, the ball leaves at the greatest speed of the right wrist; 7
 // parameters by 9 values on 5 bodies, at 1000 steps/s. Steered walks: 8 goals on 5 bodies
-// at 60 steps/s; of a foot that stands the slower one of ankle and ball is the point that
-// bears. Answers: the cost of Engine::ask().
+// at 60 steps/s. The slower one of ankle and ball is the point that bears. Answers: the
+// cost of Engine::ask().
 #include <algorithm>
 #include <array>
 #include <chrono>

@@ -97,7 +97,8 @@ void move_times(const dynamics::JumpPlan& plan, double end_s, MotionClip& clip) 
   }
 }
 
-// Share with which a foot is where the clip has it: 1 while it bears, faded beside that.
+// Share with which a foot is where the clip has it: 1 while it bears, faded before and
+// after.
 double foot_share(const MotionClip& clip, std::size_t side, double source_s) {
   double away_s = kFootFade_s;
   for (std::size_t part = 2 * side; part < 2 * side + 2; ++part) {

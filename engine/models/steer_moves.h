@@ -73,7 +73,7 @@ struct SteerStrategy {
 /// Returns the vector turned by an angle about Y.
 [[nodiscard]] glm::dvec2 turned(glm::dvec2 xz_m, double angle_rad);
 
-/// Returns the moment of the step that lands at `land_clip_s`, a time after `clip_s`; of
+/// Returns the moment of the step that lands at `land_clip_s`, a time after `clip_s`; for
 /// a step that has not begun, with an assumed pivot and the turns that its time permits.
 [[nodiscard]] SteerMoment moment_of(const SteerScene& scene,
                                     const RootPlace& root,

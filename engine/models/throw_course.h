@@ -107,7 +107,7 @@ class ThrowCourse {
              const ThrowChanges& asked,
              double half_width_s = 0.35);
 
-  /// Changes the parameters that are wanted, also those that start() did not name. Has no
+  /// Changes the wanted parameters, also if start() did not name them. Has no
   /// effect on the last two steps before the release.
   void want(const ThrowParameters& wanted);
   [[nodiscard]] const ThrowParameters& wanted() const { return wanted_; }

@@ -16,7 +16,7 @@ namespace marey::engine {
 [[nodiscard]] std::optional<double> stride_phase(const MotionClip& clip, double time_s);
 
 /// Returns a time of the clip, in its first cycle, at which the phase is `phase` (modulo
-/// 1); nullopt: there is none.
+/// 1); nullopt: no such time.
 [[nodiscard]] std::optional<double> time_of_stride(const MotionClip& clip, double phase);
 
 /// Number of strides in a cycle of the clip: landings of the left foot.

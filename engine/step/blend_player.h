@@ -82,7 +82,7 @@ class BlendPlayer {
                              double time_s,
                              BlendPosture& posture,
                              RootPlace& root) const;
-  /// Predicts the share with which each part of the feet will bear, likewise.
+  /// Predicts the share with which each part of the feet will bear.
   [[nodiscard]] PerFootPart predict_bears(double time_s) const;
   /// The warp of an action that plays; nullptr: it does not.
   [[nodiscard]] PhaseWarp* warp(ActionId id);

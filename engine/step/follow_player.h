@@ -24,7 +24,8 @@ struct FollowWish {
   std::string constraint = "reach right";
   glm::dvec3 target_in_world{0.0};
   FollowSettings settings;
-  double fade_out_s = 0.4;  ///< In which the point returns to the clips when it stops.
+  double fade_out_s =
+      0.4;  ///< Time in which the point returns to the clips when it stops.
 };
 
 /// The point of a constraint on a body.

@@ -31,7 +31,7 @@ struct StandingFoot {
 /// The body after the last step, against the blend of the clips.
 struct BodyShift {
   glm::dvec3 hips_m{0.0};  ///< Displacement of the hips by the adaptation.
-  double lift_m = 0.0;     ///< By which the soles meet the floor, before that.
+  double lift_m = 0.0;     ///< Lift by which the soles meet the floor, before that.
   std::array<StandingFoot, 2> feet{};
 };
 

@@ -119,8 +119,8 @@ void ThrowPlayer::rehearse(const ThrowStage& stage, const ThrowInstant& at_relea
 }
 
 // The hips as adapted carry the wrist at the begin and the end, so that the constraints
-// start and stop where the hand is. What the hand's own constraints do to the hips must
-// not move the hand: the loop would amplify it.
+// start and stop where the hand is. Hips that the hand's own constraints move must not
+// move the hand: the loop would amplify it.
 glm::dvec3 ThrowPlayer::carried(double time_s) const {
   if (time_s < release_s_) {
     const double into = smooth_step((time_s - begin_s_) / (release_s_ - begin_s_));

@@ -156,7 +156,7 @@ class ThrowPlayer {
   double aim_time_s_ = 0.0;   ///< Flight to the aim.
   glm::dvec3 carries_from_m_{0.0};
   glm::dvec3 carries_to_m_{0.0};
-  RootPlace hips_from_blend_;  ///< At the release: of the posed body, in the world.
+  RootPlace hips_from_blend_;  ///< At the release, by the posed body, in the world.
   std::optional<ThrowResult> result_;
   Rehearsal rehearsal_;
 };

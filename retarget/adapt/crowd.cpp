@@ -343,7 +343,7 @@ void Crowd::adapt(std::span<const Pose> references,
 void Crowd::adapt(std::span<const CrowdJob> jobs, double time_s) {
   State& s = *state_;
   MAREY_ASSERT(jobs.size() <= s.members.size());
-  // Those with balance are solved by another task than those without.
+  // Members with balance are solved by another task than the others.
   for (const bool balance : {false, true}) {
     const AdaptOptions* options = nullptr;
     s.jobs.clear();

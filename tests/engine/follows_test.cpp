@@ -232,7 +232,7 @@ TEST(EngineClipConstraints, RideWithTheirActionAndItsRoot) {
   }
 }
 
-TEST(EngineClipConstraints, OfUnknownClipsAreRefused) {
+TEST(EngineClipConstraints, AreRefusedForUnknownClips) {
   Engine engine = *Engine::make(made_base());
   CharacterSpec spec = made_character();
   spec.constrained_clips = {"stil"};

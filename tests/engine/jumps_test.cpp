@@ -178,7 +178,7 @@ TEST(EngineJumps, ReachTheirApexOnRandomBodies) {
   }
 }
 
-TEST(EngineJumps, LandWhereTheyAreAsked) {
+TEST(EngineJumps, LandAtTheAskedPlace) {
   testing::Dice dice(43);
   const auto base = base_with_jump();
   for (int seed = 0; seed < 10; ++seed) {

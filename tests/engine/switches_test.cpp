@@ -22,7 +22,7 @@ constexpr double kSwitchHz = 120.0;
 struct SwitchFigures {
   double hips_m = 0.0;     ///< Farthest from the blend's.
   double extension = 0.0;  ///< Greatest, of a leg.
-  double slide_m_s = 0.0;  ///< Of a foot that stands for more than 0.1 s.
+  double slide_m_s = 0.0;  ///< For feet that stand longer than 0.1 s.
   double settled_s = 0.0;  ///< Until the new clip has 0.9 of the weight.
 };
 

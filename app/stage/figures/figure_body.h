@@ -30,7 +30,7 @@ struct FigureFloor {
 struct FigureBody {
   std::string id;
   const Character* character = nullptr;
-  const retarget::BodyMap* map = nullptr;  ///< Of the character's skeleton.
+  const retarget::BodyMap* map = nullptr;  ///< Made from the character's skeleton.
   std::span<const double> times_s;         ///< Ascending, on the clock of the scene.
   std::span<const Pose> poses;             ///< One per step.
   /// The postures before feet, constraints and balance; empty: not kept.

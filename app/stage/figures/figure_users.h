@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "app/stage/figures/figure_body.h"
-#include "app/stage/stage_record.h"
+#include "app/stage/run/stage_record.h"
 #include "core/engine/scene.h"
 
 namespace marey::app {

@@ -30,8 +30,8 @@ struct FootStep {
 };
 
 /// Returns the largest displacement of the foot along the floor since it began to stand
-/// on the part that stands: of the ankle on the heel, of the toe joint on the ball, of
-/// the one that moved less on the whole foot, since a foot that turns about one of them
+/// on the part that stands. The ankle counts on the heel, the toe joint on the ball, and
+/// on the whole foot the one that moved less, since a foot that turns about one of them
 /// does not slide (foot_twist_deg()). [mm] Linear.
 [[nodiscard]] WorstValue foot_slide_mm(std::span<const FootStep> steps);
 

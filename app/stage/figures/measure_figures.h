@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/stage/stage_record.h"
+#include "app/stage/run/stage_record.h"
 #include "core/engine/scene_figure.h"
 
 namespace marey::app {
@@ -16,7 +16,7 @@ namespace marey::app {
 struct BodyFigure {
   std::string body;
   double value = 0.0;      ///< In the unit of the kind.
-  double time_s = 0.0;     ///< Of the worst step, event or throw.
+  double time_s = 0.0;     ///< The worst step, event or throw.
   std::size_t count = 0;   ///< Values of which this is the worst.
   std::size_t beyond = 0;  ///< kWristError: steps in which the target is out of reach.
 };
@@ -24,12 +24,12 @@ struct BodyFigure {
 /// A figure of a scene as measured.
 struct MeasuredFigure {
   SceneFigure figure;
-  std::vector<BodyFigure> bodies;  ///< Those with a value, in the order of the figure.
+  std::vector<BodyFigure> bodies;       ///< All with a value, in the order of the figure.
   std::vector<std::string> unmeasured;  ///< Bodies without a value.
   /// The smallest value with SceneFigure::min alone, else the largest. nullopt: no value.
   std::optional<BodyFigure> worst;
   bool ascends = true;  ///< Each body's value exceeds that of the body before it.
-  /// Whether bounds and order are met; false if a body has no value.
+  /// True if bounds and order are met and every body has a value.
   bool passed = false;
 };
 

@@ -19,10 +19,10 @@ struct ReachedError {
 };
 
 /// Returns the largest distance of a point of an arm from its target, in steps in which
-/// the target is within the arm's length of its shoulder: of the shoulder as it is, or of
-/// that before constraints. The length is that of both bones and the distance of the
-/// point from the wrist. A point that is not of an arm always counts. `targets_in_world`
-/// has one place per step. Linear.
+/// the target is within the arm's length of its shoulder, as it is or as it was before
+/// constraints. The length is that of both bones and the distance of the point from the
+/// wrist. A point that is not of an arm always counts. `targets_in_world` has one place
+/// per step. Linear.
 [[nodiscard]] ReachedError reached_error_mm(const FigureBody& body,
                                             const FigurePoint& point,
                                             std::span<const glm::dvec3> targets_in_world,

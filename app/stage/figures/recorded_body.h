@@ -12,7 +12,7 @@
 
 #include "app/stage/figures/body_figures.h"
 #include "app/stage/figures/figure_body.h"
-#include "app/stage/stage_record.h"
+#include "app/stage/run/stage_record.h"
 
 namespace marey::app {
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "app/stage/stage_record.h"
-#include "app/stage/trial_log.h"
+#include "app/stage/run/stage_record.h"
+#include "app/stage/run/trial_log.h"
 #include "core/engine/scene_figure.h"
 
 namespace marey::app {

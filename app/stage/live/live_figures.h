@@ -6,16 +6,16 @@
 #include <optional>
 #include <vector>
 
-#include "app/stage/scene_run.h"
+#include "app/stage/run/scene_run.h"
 #include "live/page/page_run.h"
 
 namespace marey::app {
 
 /// Figures of a scene while it runs: as measure_figures() computes them, over the steps
-/// since the last report. Displacements of feet thus begin anew with each report.
+/// since the last report. So displacements of feet begin again with each report.
 class LiveFigures {
  public:
-  /// Notes the last step of the run. If nobody asks for reports, the record is emptied
+  /// Notes the last step of the run. Without requests for reports, the record is emptied
   /// from time to time.
   void add(SceneRun& run);
   /// Returns all figures of the scene, in the order of its file, and empties the record

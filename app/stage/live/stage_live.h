@@ -14,7 +14,7 @@
 #include "app/stage/live/stage_page.h"
 #include "app/stage/live/stage_session.h"
 #include "app/stage/live/stage_vmc.h"
-#include "app/stage/scene_run.h"
+#include "app/stage/run/scene_run.h"
 #include "app/view/page_server.h"
 #include "core/base/time.h"
 

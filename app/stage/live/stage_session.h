@@ -10,7 +10,7 @@
 #include "app/stage/live/stage_request.h"
 #include "app/stage/live/stage_targets.h"
 #include "app/stage/live/step_clock.h"
-#include "app/stage/scene_run.h"
+#include "app/stage/run/scene_run.h"
 #include "core/base/result.h"
 #include "core/base/time.h"
 

@@ -10,7 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "app/stage/live/stage_request.h"
-#include "app/stage/scene_run.h"
+#include "app/stage/run/scene_run.h"
 #include "core/base/result.h"
 #include "live/page/page_run.h"
 
@@ -18,7 +18,7 @@ namespace marey::app {
 
 /// Targets of a scene as handles of its page.
 ///
-/// A target in the world has one handle. So has a target in the frame of bodies: that of
+/// A target in the world has one handle. A target in the frame of bodies has one, too, at
 /// its first user. Dragging it moves the targets of all users, in the frame of each and
 /// in proportion to their statures if the target depends on the stature. Targets without
 /// users and points of bodies have no handle.
@@ -27,7 +27,7 @@ class StageTargets {
   explicit StageTargets(const SceneRun& run);
 
   [[nodiscard]] std::span<const StageHandle> handles() const { return handles_; }
-  /// Returns the places of all handles: of a held one its last place, also while the
+  /// Returns the places of all handles; a held one has its last place, also while the
   /// scene is paused.
   [[nodiscard]] std::vector<live::PageTarget> places(const SceneRun& run) const;
 

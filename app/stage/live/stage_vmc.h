@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/stage/scene_run.h"
+#include "app/stage/run/scene_run.h"
 #include "core/base/result.h"
 #include "core/base/time.h"
 #include "live/udp/udp_address.h"

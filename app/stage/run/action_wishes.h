@@ -8,7 +8,7 @@
 
 #include "engine/engine.h"
 
-#include "app/stage/stage_record.h"
+#include "app/stage/run/stage_record.h"
 #include "core/base/result.h"
 #include "core/constraint.h"
 #include "core/engine/scene.h"

@@ -12,8 +12,8 @@
 #include "engine/engine.h"
 #include "engine/models/follow_course.h"
 
+#include "app/stage/run/stage_record.h"
 #include "app/stage/run/target_places.h"
-#include "app/stage/stage_record.h"
 #include "core/base/result.h"
 #include "core/engine/throw_trials.h"
 #include "retarget/adapt/adapter.h"

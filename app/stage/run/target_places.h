@@ -10,7 +10,7 @@
 #include "engine/engine.h"
 #include <glm/vec3.hpp>
 
-#include "app/stage/stage_record.h"
+#include "app/stage/run/stage_record.h"
 #include "core/engine/scene.h"
 
 namespace marey::app {

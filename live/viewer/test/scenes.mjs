@@ -61,7 +61,7 @@ export function stageScene(rate_hz, count) {
       ({...constraint(['left', 'right'][i], 'position', p, false), draggable: i === 0}))};
 }
 
-/** Places of the targets; `held`: places by index of those that a page holds. */
+/** Places of the targets; `held`: places by index of the held ones. */
 export function targetsAt(time_s, held) {
   return {type: 'targets', held: [0, 1].map((i) => i in held), p_in_world: [0, 1].map((i) =>
     held[i] ?? [4.5 - i + 0.1 * Math.sin(time_s), 1.2, 0.6])};

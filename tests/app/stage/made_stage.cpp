@@ -7,7 +7,7 @@
 
 #include "engine/clips/make_clip.h"
 
-#include "app/stage/stage_bodies.h"
+#include "app/stage/run/stage_bodies.h"
 #include "core/base/smooth_step.h"
 #include "recordings/scene/read_scene.h"
 #include "retarget/contacts/detect_contacts.h"

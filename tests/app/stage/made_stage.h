@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "app/stage/scene_run.h"
+#include "app/stage/run/scene_run.h"
 
 namespace marey::app::testing {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/stage/scene_run.h"
+#include "app/stage/run/scene_run.h"
 
 #include <cmath>
 #include <limits>

@@ -26,7 +26,7 @@ const std::string kPair =
     "[[at]]\ntime_s = 0.5\nbody = \"pair\"\ndo = \"play\"\nclip = \"wave\"\n"
     "[[measure]]\nkind = \"feet_slide\"\nbody = \"pair\"\nmax_mm = 0.1\n";
 
-/// A scene that was run, with what its result refers to.
+/// A played scene, with the data that its result borrows.
 struct MadeResult {
   explicit MadeResult(const std::string& text)
       : run(played(made_stage_input(text))), cast(*read_stage_cast(run.scene())) {}

@@ -7,7 +7,7 @@
 #include "engine/clips/make_clip.h"
 #include <gtest/gtest.h>
 
-#include "app/stage/stage_bodies.h"
+#include "app/stage/run/stage_bodies.h"
 #include "recordings/scene/read_scene.h"
 #include "retarget/contacts/detect_contacts.h"
 #include "tests/support/simulation/synthetic_walk.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "app/stage/scene_run.h"
+#include "app/stage/run/scene_run.h"
 
 namespace marey::app {
 

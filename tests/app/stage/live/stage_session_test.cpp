@@ -145,7 +145,7 @@ TEST(StageSession, MeasuresTheFiguresOfTheSceneSinceTheLastReport) {
   EXPECT_EQ(session.report_figures()[0].value, figures[0].value);
 }
 
-TEST(StageSession, EmptiesTheRecordIfNobodyAsksForReports) {
+TEST(StageSession, EmptiesTheRecordWithoutRequestsForReports) {
   StageSession session = session_at(0s);
   Timestamp now = 0s;
   for (int i = 0; i < 30; ++i) {

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws the pictures of a scene from the results of marey stage, with Blender 3.4.
 
-    blender -b -P draw_pictures.py -- RESULTS OUT
+    blender -b -P draw_scene_pictures.py -- RESULTS OUT
 
 RESULTS is the folder that `marey stage --out` wrote; the pictures are OUT/NAME-1.png,
 OUT/NAME-2.png and so on.

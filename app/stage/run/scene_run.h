@@ -11,7 +11,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "app/stage/stage_record.h"
+#include "app/stage/run/stage_record.h"
 #include "core/base/result.h"
 #include "core/engine/throw_trials.h"
 #include "core/pose.h"
@@ -71,7 +71,7 @@ class SceneRun {
 
   /// The run so far. Precondition: SceneRunInput::records.
   [[nodiscard]] const StageRecord& record() const;
-  /// Empties the record, which begins anew with the next step: a run without an end must
+  /// Empties the record, which begins again with the next step: a run without an end must
   /// not fill the memory. The record's figures are then limited to its steps.
   /// Precondition: SceneRunInput::records.
   void forget_steps();

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/stage/stage_record.h"
+#include "app/stage/run/stage_record.h"
 #include "core/base/result.h"
 #include "core/engine/scene.h"
 #include "recordings/body/mesh.h"

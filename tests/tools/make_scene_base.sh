@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Makes moves.marey for the sample scenes:
-#   make_base.sh MAREY          clips of this folder: idle, reach, walk
-#   make_base.sh MAREY DATA     also kick, guard, punch, walk_drunk, from recordings that are not
-#                               distributed with marey
+#   make_scene_base.sh MAREY          clips of their folder: idle, reach, walk
+#   make_scene_base.sh MAREY DATA     also kick, guard, punch, walk_drunk, from recordings
+#                                     that are not distributed with marey
 # MAREY is the program; DATA holds mocap/bandai, mocap/cmu_asfamc and library/bandai.tar.xz.
 set -euo pipefail
 if (($# < 1 || $# > 2)); then
@@ -14,7 +14,7 @@ if (($# < 1 || $# > 2)); then
 fi
 marey=$(realpath "$1")
 data=${2:+$(realpath "$2")}
-cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
+cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../../recordings/samples/scenes"
 
 sources=(clips/idle.bvh moves/shipped)
 if [[ -n $data ]]; then

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/stage/trial_log.h"
+#include "app/stage/run/trial_log.h"
 
 #include <array>
 #include <charconv>

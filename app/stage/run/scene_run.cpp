@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/stage/scene_run.h"
+#include "app/stage/run/scene_run.h"
 
 #include <algorithm>
 #include <chrono>
@@ -236,7 +236,7 @@ void SceneRun::advance() {
   s.engine.begin_step();
   for (const std::size_t body : s.order) {
     s.script->aim(body, now_s, step_s, s.places, s.engine);
-    // Nobody waits for the bodies of the last round: end_step() solves them together.
+    // No body waits for the bodies of the last round: end_step() solves them together.
     if (s.is_awaited(body)) s.engine.step(id_of(body));
   }
   s.engine.end_step();

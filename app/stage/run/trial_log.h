@@ -10,7 +10,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "app/stage/keeper_response.h"
+#include "app/stage/run/keeper_response.h"
 #include "core/base/result.h"
 #include "recordings/base/line_journal.h"
 

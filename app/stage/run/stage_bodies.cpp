@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/stage/stage_bodies.h"
+#include "app/stage/run/stage_bodies.h"
 
 #include <array>
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/stage/keeper_response.h"
+#include "app/stage/run/keeper_response.h"
 
 #include <algorithm>
 #include <cstddef>
