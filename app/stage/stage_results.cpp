@@ -8,7 +8,9 @@
 #include <system_error>
 #include <utility>
 
+#include "app/stage/figures/throw_figures.h"
 #include "app/stage/run/action_wishes.h"
+#include "app/stage/run/trial_log.h"
 #include "core/base/format_text.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/base/atomic_folder.h"
@@ -276,6 +278,13 @@ Result<std::vector<fs::path>> write_stage(const StageResult& result,
     const Status ok = write_glb(result, partial->partial() / name);
     if (!ok) return ok.error();
     files.push_back(folder / name);
+  }
+  if (const auto rows = trial_rows(result.record); !rows.empty()) {
+    std::string table = trial_header() + "\n";
+    for (const TrialRow& row : rows) table += trial_line(row) + "\n";
+    const Status ok = recordings::write_file(partial->partial() / "trials.csv", table);
+    if (!ok) return ok.error();
+    files.push_back(folder / "trials.csv");
   }
   const Status ok = recordings::write_file(partial->partial() / "stage.json",
                                            stage_json(result).dump(2) + "\n");

@@ -36,7 +36,8 @@ struct StageResult {
 /// not meet its bounds.
 [[nodiscard]] std::vector<Finding> assess_stage(const StageResult& result);
 
-/// Writes NAME.glb (unless the scene does without) and stage.json to a folder that
+/// Writes NAME.glb (unless the scene does without), trials.csv (if throws of a list of
+/// trials were played) and stage.json to a folder that
 /// appears as a whole. A folder that exists is replaced if it has a stage.json. Returns
 /// the files.
 /// Errors: the folder exists and is not of a scene; the disk.

@@ -3,6 +3,8 @@
 #include "app/stage/figures/throw_figures.h"
 
 #include <cmath>
+#include <utility>
+#include <variant>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -62,6 +64,29 @@ TrialValues trial_values(const std::array<double, 7>& values) {
   out.elevation_deg = glm::degrees(values[kElevation]);
   out.speed_m_s = values[kSpeed];
   out.release_s = values[kRelease];
+  return out;
+}
+
+std::vector<TrialRow> trial_rows(const StageRecord& record) {
+  std::vector<TrialRow> out;
+  for (const StageThrow& thrown : record.throws) {
+    const auto* deed = std::get_if<SceneThrow>(&record.scene.script[thrown.action].deed);
+    if (deed == nullptr || !thrown.trial) continue;
+    const auto list = record.trials.find(deed->trials);
+    if (list == record.trials.end()) continue;
+    const PlannedTrial planned = trial_order(list->second)[*thrown.trial];
+    const ThrowTrial& trial = list->second.trials[planned.trial];
+    TrialRow row;
+    row.number = static_cast<int>(*thrown.trial) + 1;
+    row.parameter = kThrowParameters[static_cast<std::size_t>(trial.parameter)];
+    row.value = trial.value;
+    row.repetition = planned.repetition + 1;
+    row.start_s = thrown.start_s;
+    row.asked = trial_values(thrown.asked);
+    row.measured = trial_values(thrown.measured);
+    row.release_s = thrown.release_s;
+    out.push_back(std::move(row));
+  }
   return out;
 }
 

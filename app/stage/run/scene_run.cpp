@@ -215,6 +215,7 @@ Result<SceneRun> SceneRun::make(SceneRunInput input) {
   record.scene = in.scene;
   record.floor = in.floor;
   record.base = in.base;
+  record.trials = in.trials;
   if (in.records) {
     record.bodies = in.bodies;
     record.tracks.resize(in.bodies.size());

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +18,7 @@
 #include "core/character.h"
 #include "core/constraint.h"
 #include "core/engine/scene.h"
+#include "core/engine/throw_trials.h"
 #include "core/floor.h"
 #include "core/pose.h"
 #include "retarget/body/body_map.h"
@@ -87,6 +89,7 @@ struct StageRecord {
   Scene scene{};
   Floor floor{};  ///< Without parts: level, at height 0.
   std::shared_ptr<const engine::MotionBase> base{};
+  std::map<std::string, TrialList> trials{};  ///< By SceneThrow::trials.
   std::vector<StageBody> bodies{};
   std::vector<StageTrack> tracks{};  ///< One for each body.
   std::vector<StageTargetTrack> targets{};
