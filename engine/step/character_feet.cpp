@@ -28,7 +28,7 @@ void CharacterPlayer::forget_feet() {
   for (FootHold& foot : feet_) foot.reset();
   floor_.reset();
   pull_.reset();
-  blend_.set_lift(0.0);
+  blend_.set_lift(0.0, 0.0);
   stand_share_ = {};
   report_.stands = {};
 }
@@ -60,7 +60,7 @@ void CharacterPlayer::meet_floor(double step_s) {
   }
   const double lift_m = smooth_step(activation_) *
                         floor_.step(sole_m, kMaxLift_legs * map_->leg_length_m, step_s);
-  blend_.set_lift(lift_m);
+  blend_.set_lift(lift_m, (lift_m - blend_.lift_m()) / step_s);
   posture_.height_legs += static_cast<float>(lift_m / map_->leg_length_m);
 }
 
