@@ -72,13 +72,9 @@ class BlendPlayer {
 
   [[nodiscard]] const BlendPosture& posture() const { return shown_; }
   [[nodiscard]] const RootPlace& root() const { return root_; }
-  /// Lifts predicted postures, not posture(). [m] The rate is for Rehearsal.
-  void set_lift(double lift_m, double rate_m_s) {
-    lift_m_ = lift_m;
-    lift_rate_m_s_ = rate_m_s;
-  }
+  /// Lifts predicted postures, not posture(). [m]
+  void set_lift(double lift_m) { lift_m_ = lift_m; }
   [[nodiscard]] double lift_m() const { return lift_m_; }
-  [[nodiscard]] double lift_rate_m_s() const { return lift_rate_m_s_; }
   /// Predicts posture and root at a later time if nothing changes: from the clips at
   /// their present warps and the offsets as they decay. False: nothing plays. Allocates
   /// nothing.
@@ -183,7 +179,6 @@ class BlendPlayer {
   RootPlace root_offset_rate_;
   RootAnchor anchor_;
   double lift_m_ = 0.0;
-  double lift_rate_m_s_ = 0.0;
   double delay_s_ = 0.0;          ///< Until the fade of the action that begins.
   double anchor_strength_ = 0.0;  ///< 0 to 1, before smoothing.
   double transition_end_s_ = -1.0;

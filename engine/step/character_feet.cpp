@@ -28,7 +28,7 @@ void CharacterPlayer::forget_feet() {
   for (FootHold& foot : feet_) foot.reset();
   floor_.reset();
   pull_.reset();
-  blend_.set_lift(0.0, 0.0);
+  blend_.set_lift(0.0);
   stand_share_ = {};
   report_.stands = {};
 }
@@ -58,9 +58,13 @@ void CharacterPlayer::meet_floor(double step_s) {
     }
     sole_m = std::min(sole_m.value_or(height_m), height_m);
   }
+  // The lift rests while a ball leaves a hand: its speed would be the ball's, too.
+  for (const auto& made : throws_) {
+    if (made && made->is_releasing(time_s_, step_s)) sole_m.reset();
+  }
   const double lift_m = smooth_step(activation_) *
                         floor_.step(sole_m, kMaxLift_legs * map_->leg_length_m, step_s);
-  blend_.set_lift(lift_m, (lift_m - blend_.lift_m()) / step_s);
+  blend_.set_lift(lift_m);
   posture_.height_legs += static_cast<float>(lift_m / map_->leg_length_m);
 }
 

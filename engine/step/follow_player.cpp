@@ -95,7 +95,7 @@ void FollowPlayer::begin(double time_s,
                          std::span<const RigidTransform> reference,
                          std::span<const RigidTransform> posed) {
   glm::dvec3 velocity(0.0);
-  if (rehearsal_.predict(time_s, time_s - step_s, blend, time_s)) {
+  if (rehearsal_.predict(time_s, time_s - step_s, blend)) {
     velocity = (posed_point(reference, *map_, point_) -
                 posed_point(rehearsal_.joints(), *map_, point_)) /
                step_s;

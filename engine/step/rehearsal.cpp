@@ -12,12 +12,6 @@
 #include "retarget/body/rotation_from_t_pose.h"
 
 namespace marey::engine {
-namespace {
-
-// The lift of the soles to the floor moves on for about this long.
-constexpr double kLiftTime_s = 0.05;
-
-}  // namespace
 
 Rehearsal::Rehearsal(const Skeleton& skeleton, const retarget::BodyMap& map)
     : skeleton_(&skeleton),
@@ -29,14 +23,8 @@ Rehearsal::Rehearsal(const Skeleton& skeleton, const retarget::BodyMap& map)
   adapted_.parent_from_joint.resize(skeleton.joints.size());
 }
 
-bool Rehearsal::predict(double now_s,
-                        double time_s,
-                        const BlendPlayer& blend,
-                        double lift_at_s) {
+bool Rehearsal::predict(double now_s, double time_s, const BlendPlayer& blend) {
   if (!blend.predict(now_s, time_s, posture_, root_)) return false;
-  const double further_m = blend.lift_rate_m_s() * kLiftTime_s *
-                           (1.0 - std::exp((now_s - lift_at_s) / kLiftTime_s));
-  posture_.height_legs += static_cast<float>(further_m / map_->leg_length_m);
   layout_ = blend.base().layout();
   to_normalized(posture_, blend.base().layout(), root_, map_->leg_length_m, normalized_);
   retarget::expand(normalized_, *skeleton_, *map_, joints_, pose_);

@@ -44,9 +44,7 @@ class Rehearsal {
 
   /// Computes the joints of the blend on this body at a time, if nothing changes; false:
   /// nothing plays. Cost: some microseconds.
-  /// `lift_at_s`: time for which the lift of the soles is predicted. One time for several
-  /// postures keeps its speed, which is uncertain, out of their differences.
-  bool predict(double now_s, double time_s, const BlendPlayer& blend, double lift_at_s);
+  bool predict(double now_s, double time_s, const BlendPlayer& blend);
   /// The same for one clip alone, from the start of its path, at the origin.
   void sample(double source_s, const MotionClip& clip, const PostureLayout& layout);
   [[nodiscard]] std::span<const RigidTransform> joints() const { return joints_; }

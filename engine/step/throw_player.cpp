@@ -40,7 +40,7 @@ bool ThrowPlayer::forecast(const ThrowStage& stage, ThrowInstant& out) {
   std::array<RigidTransform, 3> wrist;
   for (std::size_t k = 0; k < 3; ++k) {
     const double at_s = release_s_ - kInstant_s * static_cast<double>(2 - k);
-    if (!rehearsal_.predict(stage.time_s, at_s, stage.blend, release_s_)) return false;
+    if (!rehearsal_.predict(stage.time_s, at_s, stage.blend)) return false;
     wrist[k] = posed_wrist(rehearsal_.joints(), *map_, wish_.side);
   }
   out.wrist = hand_motion_until(wrist[0], wrist[1], wrist[2], kInstant_s);
@@ -134,7 +134,7 @@ void ThrowPlayer::measure(const ThrowStage& stage) {
   RootPlace root;
   for (std::size_t k = 0; k < 3; ++k) {
     const double at_s = release_s_ - kInstant_s * static_cast<double>(2 - k);
-    if (!rehearsal_.predict(stage.time_s, at_s, stage.blend, release_s_)) return;
+    if (!rehearsal_.predict(stage.time_s, at_s, stage.blend)) return;
     const RigidTransform hand = posed_wrist(rehearsal_.joints(), *map_, wish_.side);
     set_hand(stage,
              hand.translation + course_.planned(at_s).value + carried(at_s),

@@ -107,6 +107,13 @@ class ThrowPlayer {
   [[nodiscard]] const ThrowParameters& wanted() const { return course_.wanted(); }
   /// nullopt: the ball is in the hand.
   [[nodiscard]] const std::optional<ThrowResult>& result() const { return result_; }
+  /// True from a quarter of a second before the release to the step after it: nothing but
+  /// the clip and the hand's own way may move the hand then.
+  [[nodiscard]] bool is_releasing(double time_s, double step_s) const {
+    constexpr double kBefore_s = 0.25;
+    return phase_ == Phase::kRunning && release_s_ > 0.0 &&
+           time_s >= release_s_ - kBefore_s && time_s <= release_s_ + 2.0 * step_s;
+  }
   /// True while it moves the constraints of its hand.
   [[nodiscard]] bool holds() const { return holds_; }
   [[nodiscard]] bool is_over() const { return phase_ == Phase::kOver; }
