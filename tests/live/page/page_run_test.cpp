@@ -13,7 +13,7 @@
 namespace marey::live {
 namespace {
 
-using Json = nlohmann::json;
+using RunJson = nlohmann::json;
 
 TEST(PageRun, ReportsStateAndFigures) {
   PageRun run;
@@ -23,7 +23,7 @@ TEST(PageRun, ReportsStateAndFigures) {
   run.figures = {{"wrist_error", "mm", 0.25, "at most 1", true},
                  {"feet_slide", "mm", {}, "at most 0.1", {}}};
   run.messages = {"slow"};
-  EXPECT_EQ(Json::parse(run_json(run)), Json::parse(R"({
+  EXPECT_EQ(RunJson::parse(run_json(run)), RunJson::parse(R"({
     "type": "run", "state": "paused", "time_s": 1.5, "duration_s": 12.0,
     "figures": [
       {"name": "wrist_error", "unit": "mm", "value": 0.25, "bound": "at most 1",
@@ -44,14 +44,14 @@ TEST(PageRun, ReportsTargetsInOrder) {
 TEST(PageRun, WritesValuesThatAreNotFiniteAsNull) {
   PageRun run;
   run.figures = {{"jerk_ratio", "", std::numeric_limits<double>::quiet_NaN(), "", {}}};
-  EXPECT_TRUE(Json::parse(run_json(run))["figures"][0]["value"].is_null());
+  EXPECT_TRUE(RunJson::parse(run_json(run))["figures"][0]["value"].is_null());
 }
 
 TEST(PageRun, MarksItsScenes) {
   PageScene scene;
-  EXPECT_FALSE(Json::parse(scene_json(scene)).contains("run"));
+  EXPECT_FALSE(RunJson::parse(scene_json(scene)).contains("run"));
   scene.run = true;
-  const Json message = Json::parse(scene_json(scene));
+  const RunJson message = RunJson::parse(scene_json(scene));
   EXPECT_EQ(message["run"], true);
   EXPECT_EQ(message["mode"], "live");
 }
