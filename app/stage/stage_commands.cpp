@@ -58,6 +58,10 @@ Result<OpenedScene> open_scene(const StageArguments& args) {
 }
 
 Exit run_stage(const StageArguments& args, Console& console) {
+  if (!args.out.empty()) {
+    const Status ok = check_stage_folder(args.out);
+    if (!ok) return console.fail(ok.error());
+  }
   auto opened = open_scene(args);
   if (!opened) return console.fail(opened.error());
   if (args.live) {

@@ -179,6 +179,8 @@ Status write_glb(const StageResult& result, const fs::path& path) {
   return recordings::write_characters(path, bodies, {rate_hz}, record.scene.name);
 }
 
+}  // namespace
+
 Status check_stage_folder(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::exists(folder, ignored)) return Done{};
@@ -190,8 +192,6 @@ Status check_stage_folder(const fs::path& folder) {
                    "it exists and is not the result of a scene",
                    "choose another folder, or remove it");
 }
-
-}  // namespace
 
 nlohmann::ordered_json stage_json(const StageResult& result) {
   const StageRecord& record = result.record;

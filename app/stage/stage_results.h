@@ -25,6 +25,10 @@ struct StageResult {
   std::vector<Error> problems{};  ///< Actions that could not begin.
 };
 
+/// Checks that results may be written to a folder: it does not exist, is empty, or has a
+/// stage.json. Errors (bad input): another folder or file is there.
+[[nodiscard]] Status check_stage_folder(const std::filesystem::path& folder);
+
 /// Returns the content of stage.json (docs/formats/stage.md). Only mean_step_ms and
 /// figures of the kind step_time depend on the clock.
 [[nodiscard]] nlohmann::ordered_json stage_json(const StageResult& result);
