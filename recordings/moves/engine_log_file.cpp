@@ -141,7 +141,9 @@ Result<EngineLog> parse_engine_log(std::string_view bytes, const std::string& fi
   for (std::size_t i = in.count(40); i > 0; --i) {
     EngineRequest request;
     request.step = static_cast<std::int64_t>(in.number());
-    request.character = static_cast<int>(static_cast<std::int64_t>(in.number()));
+    const auto character = static_cast<std::int64_t>(in.number());
+    request.character = static_cast<int>(character);
+    if (request.character != character) return damaged_log(file);
     request.kind = in.text();
     for (std::size_t n = in.count(8); n > 0; --n) request.numbers.push_back(in.real());
     request.texts = in.texts();
