@@ -215,6 +215,19 @@ engine::ThrowWish throw_wish(const SceneAction& action,
   return wish;
 }
 
+engine::JumpWish jump_wish(const SceneAction& action, const SceneJump& jump) {
+  engine::JumpWish wish;
+  wish.action = action_wish(action);
+  // The jump is planned from the first frame of its clip.
+  wish.action.entry_search_s = 0.0;
+  wish.changes.apex_m = jump.apex_m;
+  wish.changes.apex_by_m = jump.apex_by_m;
+  wish.changes.airtime_s = jump.airtime_s;
+  wish.changes.length_m = jump.length_m;
+  wish.changes.box_m = jump.box_m;
+  return wish;
+}
+
 std::string constraint_id(std::size_t action) {
   return "script " + std::to_string(action);
 }
@@ -280,11 +293,6 @@ Status check_action(const Scene& scene,
                        "a reach with offset_m is not supported: its palm arrives",
                        "leave offset_m out, or use \"constrain\"");
     }
-  }
-  if (std::holds_alternative<SceneJump>(action.deed)) {
-    return bad_input(place_of(scene, action),
-                     "jumps of scenes are not supported",
-                     "change the jump with marey jump, and play the result as a clip");
   }
   return Done{};
 }

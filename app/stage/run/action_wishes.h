@@ -40,6 +40,10 @@ namespace marey::app {
                                            const ThrowTrial* trial,
                                            double gravity_m_s2);
 
+/// Without the landing on a target, which the caller sets.
+[[nodiscard]] engine::JumpWish jump_wish(const SceneAction& action,
+                                         const SceneJump& jump);
+
 /// Returns the id of the constraint by which the script's k-th action acts.
 [[nodiscard]] std::string constraint_id(std::size_t action);
 

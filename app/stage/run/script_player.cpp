@@ -145,6 +145,10 @@ Result<std::optional<engine::ActionId>> ScriptPlayer::request(Instance& instance
     engine::SteerWish wish = steer_wish(action, *steer);
     wish.goal_xz_m = {target.x, target.z};
     id = engine.play(who, wish);
+  } else if (const auto* jump = std::get_if<SceneJump>(&action.deed)) {
+    engine::JumpWish wish = jump_wish(action, *jump);
+    if (!jump->target.empty()) wish.landing_in_world = target;
+    id = engine.play(who, wish);
   } else if (std::holds_alternative<SceneThrow>(action.deed)) {
     return request_throw(instance, target, engine);
   } else if (std::holds_alternative<SceneCarry>(action.deed)) {
