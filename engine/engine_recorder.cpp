@@ -116,6 +116,11 @@ Result<ActionId> EngineRecorder::play(CharacterId character, const SteerWish& wi
   return record(character, "steer", wish);
 }
 Result<ActionId> EngineRecorder::play(CharacterId character, const ReachWish& wish) {
+  if (!wish.family.empty()) {
+    return bad_input("action \"" + wish.action.clip + "\"",
+                     "a family of reaches cannot be recorded",
+                     "play it with one clip, or without a recorder");
+  }
   return record(character, "reach", wish);
 }
 Result<ActionId> EngineRecorder::play(CharacterId character, const ThrowWish& wish) {

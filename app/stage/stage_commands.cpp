@@ -93,7 +93,9 @@ Exit run_stage(const StageArguments& args, Console& console) {
                           run->time_s(),
                           result.record.mean_step_ms));
   const auto findings = assess_stage(result);
-  return print_failures(console, findings);
+  const Exit exit = print_failures(console, findings);
+  // The actions of a scene before its figures.
+  return result.problems.empty() ? exit : Exit::kBadInput;
 }
 
 void add_stage_command(CLI::App& app,

@@ -114,7 +114,15 @@ CharacterPlayer::CharacterPlayer(std::shared_ptr<const MotionBase> base,
       world_from_joint_(character_->skeleton.joints.size()),
       reference_(rest_pose(character_->skeleton)),
       pose_(reference_) {
-  shown_joints_.resize(world_from_joint_.size());
+  // Questions and targets before the first step take the rest pose at the start.
+  Pose at_start = reference_;
+  at_start.root_in_world.x = blend_.root().x_m;
+  at_start.root_in_world.z = blend_.root().z_m;
+  at_start.parent_from_joint[0] =
+      glm::angleAxis(blend_.root().heading_rad, glm::dvec3(0.0, 1.0, 0.0)) *
+      at_start.parent_from_joint[0];
+  world_from_joint_ = world_from_joints(character_->skeleton, at_start);
+  shown_joints_ = world_from_joint_;
   for (std::size_t side = 0; side < 2; ++side) {
     supports_[side] = adapter_->constraint(kSupportIds[side]);
     reach_handles_[2 * side] = adapter_->constraint(kReachIds[side]);

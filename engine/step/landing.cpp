@@ -82,7 +82,7 @@ const Action* bearer(const BlendPlayer& blend, std::size_t side, double time_s) 
   const Action* best = nullptr;
   double most = 0.0;
   for (const Action& action : blend.actions()) {
-    if (!action.is_alive() || action.leg_priority() <= 0.0F) continue;
+    if (!action.is_alive() || action.is_live || action.leg_priority() <= 0.0F) continue;
     const MotionClip& clip = blend.base().clip(action.clip);
     if ((bearing_at(clip, action.warp.source_s(time_s)) >> (2 * side) & 3U) == 0U)
       continue;

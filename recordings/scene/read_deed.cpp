@@ -148,7 +148,7 @@ SceneFollow read_follow(TomlReader& in, const Scene& scene) {
   SceneFollow follow;
   follow.target = read_target_id(in, "target", scene);
   follow.point = read_point(in);
-  read_number(in, "max_speed_m_s", follow.max_speed_m_s, kSpeed);
+  read_number(in, "max_speed_m_s", follow.max_speed_m_s, kFollowSpeed);
   return follow;
 }
 

@@ -158,6 +158,16 @@ SceneFigure read_figure(TomlReader& in, const Scene& scene) {
   if (rule.needs_target) figure.target = read_target_id(in, "target", scene);
   if (rule.needs_action) figure.action = read_action_id(in, scene);
   if (rule.needs_event) figure.event = recipe::read_line(in, "event", kMaxNameBytes);
+  const std::string_view users = in.has("body") ? "body" : "bodies";
+  for (const std::string& body : figure.bodies) {
+    if (!figure.target.empty()) {
+      check_target_pairs(in, users, scene, body, figure.target);
+    }
+    const SceneAction* const action = scene.action(figure.action);
+    if (!rule.needs_event || action == nullptr) continue;
+    check_pairs(
+        in, users, scene, body, action->body, "the action " + in_quotes(figure.action));
+  }
   if (rule.needs_clip) figure.clip = recipe::read_line(in, "clip", kMaxNameBytes);
   read_boolean(in, "ascending", figure.ascending);
   read_bounds(in, rule, figure);

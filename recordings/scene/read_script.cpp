@@ -38,26 +38,6 @@ void read_priorities(TomlReader& in, SceneAction& action) {
   }
 }
 
-void check_pairs(TomlReader& in,
-                 const Scene& scene,
-                 const SceneAction& action,
-                 std::size_t users) {
-  const SceneTarget* const target = scene.target(target_of(action));
-  if (!in.ok() || target == nullptr) return;
-  const auto* const path = std::get_if<BodyPointPath>(&target->path);
-  if (path == nullptr) return;
-  const auto partners = members_of(scene, path->body);
-  if (!partners || partners->count == 1 || partners->count == users) return;
-  std::string cause = in_quotes(action.body) + " has ";
-  append_exact(cause, static_cast<int>(users));
-  cause += users == 1 ? " body" : " bodies";
-  cause += ", and the target " + in_quotes(target->id) + " is on ";
-  append_exact(cause, static_cast<int>(partners->count));
-  in.fail("body",
-          std::move(cause),
-          "name groups with equal counts, or one member of the target's group");
-}
-
 SceneAction read_action(TomlReader& in,
                         const Scene& scene,
                         std::vector<std::string>& ids) {
@@ -79,7 +59,7 @@ SceneAction read_action(TomlReader& in,
     action.id = read_id(in, "id", ids);
     ids.push_back(action.id);
   }
-  const SceneMembers members = read_members(in, "body", scene, action.body);
+  (void)read_members(in, "body", scene, action.body);
   read_text(in, "after", action.after, kMaxIdBytes);
   read_text(in, "event", action.event, kMaxNameBytes);
   if (in.has("event") && !in.has("after")) {
@@ -95,7 +75,7 @@ SceneAction read_action(TomlReader& in,
   read_number(in, "fade_in_s", action.fade_in_s, kFade);
   read_number(in, "fade_out_s", action.fade_out_s, kFade);
   if (in.ok()) action.deed = read_deed(in, deed, scene);
-  check_pairs(in, scene, action, members.count);
+  check_target_pairs(in, "body", scene, action.body, target_of(action));
   return action;
 }
 

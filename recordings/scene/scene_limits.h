@@ -39,6 +39,7 @@ inline constexpr Limits kPrecision{1e-6, 1.0, "m"};
 inline constexpr Limits kClipRate{0.25, 4.0};
 inline constexpr Limits kStepFactor{0.1, 10.0};
 inline constexpr Limits kSpeed{0.0, 200.0, "m/s"};
+inline constexpr Limits kFollowSpeed{0.001, 200.0, "m/s"};
 inline constexpr Limits kDrag{0.0, 10.0, "1/m"};
 inline constexpr Limits kGravity{0.5, 30.0, "m/s^2"};
 inline constexpr Limits kUnits{0.0, 1e9, "units"};

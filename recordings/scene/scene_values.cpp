@@ -3,6 +3,8 @@
 #include "recordings/scene/scene_values.h"
 
 #include <algorithm>
+#include <utility>
+#include <variant>
 
 #include "core/base/degrees.h"
 #include "core/base/in_quotes.h"
@@ -148,6 +150,38 @@ std::size_t read_choice_of(TomlReader& in,
                            std::string_view key,
                            std::span<const std::string_view> words) {
   return recipe::read_choice(in, key, words);
+}
+
+void check_pairs(TomlReader& in,
+                 std::string_view key,
+                 const Scene& scene,
+                 const std::string& users,
+                 const std::string& partners,
+                 const std::string& what) {
+  const auto of_users = members_of(scene, users);
+  const auto of_partners = members_of(scene, partners);
+  if (!in.ok() || !of_users || !of_partners) return;
+  if (of_partners->count == 1 || of_partners->count == of_users->count) return;
+  std::string cause = in_quotes(users) + " has ";
+  append_exact(cause, static_cast<int>(of_users->count));
+  cause += of_users->count == 1 ? " body" : " bodies";
+  cause += ", and " + what + " is on ";
+  append_exact(cause, static_cast<int>(of_partners->count));
+  in.fail(std::string(key),
+          std::move(cause),
+          "name groups with equal counts, or one member of the other group");
+}
+
+void check_target_pairs(TomlReader& in,
+                        std::string_view key,
+                        const Scene& scene,
+                        const std::string& users,
+                        const std::string& target) {
+  const SceneTarget* const found = scene.target(target);
+  if (found == nullptr) return;
+  const auto* const path = std::get_if<BodyPointPath>(&found->path);
+  if (path == nullptr) return;
+  check_pairs(in, key, scene, users, path->body, "the target " + in_quotes(target));
 }
 
 }  // namespace marey::recordings::stage

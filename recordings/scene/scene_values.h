@@ -15,6 +15,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/constraint.h"
+#include "core/engine/scene.h"
 #include "core/engine/scene_action.h"
 #include "recordings/base/toml_reader.h"
 
@@ -79,6 +80,21 @@ void fail_unknown(TomlReader& in,
                   std::string_view kind,
                   const std::string& name,
                   std::span<const std::string> known);
+
+/// Stores the mistake that bodies named `users` cannot be paired with the bodies named
+/// `partners`: these are neither one nor as many. `what` has them: "the target \"t\"".
+void check_pairs(TomlReader& in,
+                 std::string_view key,
+                 const Scene& scene,
+                 const std::string& users,
+                 const std::string& partners,
+                 const std::string& what);
+/// The same for the bodies of a target; no mistake if it is not on bodies.
+void check_target_pairs(TomlReader& in,
+                        std::string_view key,
+                        const Scene& scene,
+                        const std::string& users,
+                        const std::string& target);
 
 /// Stores the mistake that there are more tables than `max`.
 void check_count(TomlReader& in, std::string_view key, std::size_t max);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <utility>
 
 #include "engine/engine.h"
@@ -120,7 +121,14 @@ struct SceneRun::State {
         lines(scene_bodies(input.scene)),
         places(input.scene, input.bodies),
         uses(target_uses(input.scene)),
-        dependencies(scene_dependencies(input.scene)) {}
+        dependencies(scene_dependencies(input.scene)) {
+    // A run may go on after the duration.
+    for (SceneDependency& link : dependencies) {
+      if (link.end_s >= input.scene.duration_s) {
+        link.end_s = std::numeric_limits<double>::infinity();
+      }
+    }
+  }
 
   void order_bodies(double time_s);
   [[nodiscard]] bool is_awaited(std::size_t body) const {

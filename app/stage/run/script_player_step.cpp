@@ -60,7 +60,10 @@ void ScriptPlayer::steer_again(Instance& instance,
   const glm::dvec3 hips = engine.pose(who).root_in_world;
   const double away_m = glm::length(glm::dvec2(target.x - hips.x, target.z - hips.z));
   if (!deed.keeps || away_m <= deed.arrive_within_m) return;
-  if (const auto id = request(instance, step_s, target, engine)) instance.id = *id;
+  if (const auto id = request(instance, step_s, target, engine)) {
+    instance.id = *id;
+    instance.clip_s.reset();
+  }
 }
 
 void ScriptPlayer::aim(std::size_t body,
@@ -99,12 +102,19 @@ void ScriptPlayer::aim(std::size_t body,
       engine::ReachTarget moved = reach_wish(action, *reach, 1.0).target;
       moved.p_in_world = target;
       moved.velocity_m_s = velocity_m_s;
-      (void)engine.aim(who, side, moved);
+      // A newer reach of this hand has its own target.
+      const engine::ReachPlayer* now = engine.player(who).reaching(side);
+      if (now != nullptr && instance.id && now->action() == *instance.id) {
+        (void)engine.aim(who, side, moved);
+      }
     } else if (std::holds_alternative<SceneSteer>(action.deed)) {
       steer_again(instance, step_s, target, engine);
     } else if (const auto* thrown = std::get_if<SceneThrow>(&action.deed)) {
       const int side = thrown->hand == SceneHand::kLeft ? 0 : 1;
-      (void)engine.aim_ball(who, side, target);
+      const engine::ThrowPlayer* now = engine.player(who).throwing(side);
+      if (now != nullptr && instance.id && now->action() == *instance.id) {
+        (void)engine.aim_ball(who, side, target);
+      }
     }
     instance.last_target = target;
     instance.has_target = true;
@@ -114,12 +124,15 @@ void ScriptPlayer::aim(std::size_t body,
 void ScriptPlayer::note_events(Instance& instance,
                                double time_s,
                                const engine::Engine& engine) {
-  const engine::Action* action =
-      engine.player(player_id(instance.body)).blend().find(*instance.id);
+  const engine::BlendPlayer& blend = engine.player(player_id(instance.body)).blend();
+  const engine::Action* action = blend.find(*instance.id);
   if (action == nullptr || !action->is_alive()) return;
-  const MotionClip& clip = base_->clip(action->clip);
+  // A planned jump is a clip of this character alone.
+  const MotionClip& clip = blend.base().clip(action->clip);
   const double now = action->warp.source_s(time_s);
-  const double before = instance.clip_s.value_or(now);
+  // An event at the entry counts, too.
+  const double before =
+      instance.clip_s.value_or(action->warp.source_s(time_s - engine.step_s()) - 1e-9);
   instance.clip_s = now;
   for (const Annotation& note : clip.notes) {
     double at = note.start_s;

@@ -8,7 +8,6 @@
 
 #include "core/base/assert.h"
 #include "core/humanoid.h"
-#include "core/pose.h"
 #include "retarget/body/rotation_from_t_pose.h"
 
 namespace marey::app {
@@ -29,16 +28,6 @@ void add_use(const Scene& scene,
     });
     if (!is_known) out.push_back({place, user, k});
   }
-}
-
-// The rest pose with its hips over the start.
-std::vector<RigidTransform> joints_at_start(const StageBody& body) {
-  Pose pose = rest_pose(body.character.skeleton);
-  const glm::dquat turn = glm::angleAxis(body.start.heading_rad, glm::dvec3(0, 1, 0));
-  pose.parent_from_joint[0] = turn * pose.parent_from_joint[0];
-  pose.root_in_world.x = body.start.x_m;
-  pose.root_in_world.z = body.start.z_m;
-  return world_from_joints(body.character.skeleton, pose);
 }
 
 }  // namespace
@@ -86,14 +75,11 @@ glm::dvec3 TargetPlaces::on_body(const BodyPointPath& path,
   const auto members = members_of(scene_, path.body);
   MAREY_ASSERT(members.has_value());
   const std::size_t partner = members->partner(use.member);
+  MAREY_ASSERT(partner < members->first + members->count);
   const StageBody& body = bodies_[partner];
   const auto joint = joint_of_segment(body, path.point.segment);
   if (!joint) return glm::dvec3(body.start.x_m, 0.0, body.start.z_m);
   const auto id = engine::CharacterId{static_cast<int>(partner)};
-  if (engine.time_s() <= engine.step_s() * 0.5) {
-    return point_in_world(
-        body, *joint, path.point.offset_in_t_pose, joints_at_start(body));
-  }
   return point_in_world(
       body, *joint, path.point.offset_in_t_pose, engine.player(id).world_from_joint());
 }

@@ -36,8 +36,7 @@ class TargetPlaces {
   TargetPlaces(const Scene& scene, std::span<const StageBody> bodies);
 
   /// Returns the place at a time. A point of a body is that of its last step, or before
-  /// its first step that of the rest pose at its start. Allocates nothing, except before
-  /// the first step.
+  /// its first step that of the rest pose at its start. Allocates nothing.
   [[nodiscard]] glm::dvec3 in_world(const TargetUse& use,
                                     double time_s,
                                     const engine::Engine& engine) const;

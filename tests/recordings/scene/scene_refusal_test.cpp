@@ -251,8 +251,7 @@ TEST(SceneRefusal, NamesTheMistakeInTheScript) {
                       "target = \"wrist\"",
                       45,
                       "\"ann\" has 1 body, and the target \"wrist\" is on 3",
-                      "name groups with equal counts, or one member of the target's "
-                      "group"},
+                      "name groups with equal counts, or one member of the other group"},
            SceneFault{"after = \"walk\"",
                       "after = \"wolk\"",
                       44,
@@ -358,6 +357,30 @@ TEST(SceneRefusal, NamesTheMistakeInResults) {
        }) {
     expect_refused(fault);
   }
+}
+
+// The k-th body of a figure is measured with the k-th body of the target or action.
+TEST(SceneRefusal, NamesFiguresWhoseBodiesHaveNoPartners) {
+  const std::string head =
+      "format = 1\nname = \"pairs\"\nduration_s = 3.0\nbase = \"moves.marey\"\n"
+      "[[group]]\nid = \"red\"\ncount = 3\n[[group]]\nid = \"blue\"\ncount = 2\n"
+      "[[target]]\nid = \"ankle\"\npath = \"body\"\nbody = \"blue\"\n"
+      "segment = \"leftFoot\"\n"
+      "[[at]]\nid = \"kick\"\ntime_s = 0.0\nbody = \"blue\"\ndo = \"play\"\n"
+      "clip = \"kick\"\n[[measure]]\n";
+  const std::string point = "segment = \"leftHand\"\ntarget = \"ankle\"\n";
+  for (const std::string& figure :
+       {"kind = \"clearance\"\nbody = \"red\"\n" + point,
+        "kind = \"clearance\"\nbodies = [\"blue\", \"red.2\"]\n" + point,
+        "kind = \"parry\"\nbody = \"red\"\naction = \"kick\"\nevent = \"impact\"\n" +
+            point}) {
+    const auto scene = parse_scene(head + figure, "pairs.toml");
+    ASSERT_FALSE(scene) << figure;
+    EXPECT_NE(scene.error().cause.find("is on 2"), std::string::npos)
+        << scene.error().message();
+  }
+  EXPECT_TRUE(parse_scene(head + "kind = \"clearance\"\nbody = \"blue\"\n" + point,
+                          "pairs.toml"));
 }
 
 }  // namespace
