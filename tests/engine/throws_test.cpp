@@ -236,7 +236,7 @@ TEST(EngineThrows, WithoutChangesAreTheirClip) {
     played.advance();
     const PosedStep a = posed_step(thrown, ann, 1);
     const PosedStep b = posed_step(played, bob, 1);
-    ASSERT_LT(glm::distance(a.ball, b.ball), 0.02) << i;
+    ASSERT_LT(glm::distance(a.ball, b.ball), 0.001) << i;
   }
 }
 

@@ -63,10 +63,10 @@ TEST(LandingCost, GivesAStandingFootNoVelocity) {
         bearing_at(clip, t - 0.06) & bearing_at(clip, t) & bearing_at(clip, t + 0.06);
     // Heel and ball bear: the foot is flat.
     if ((bits & 3U) == 3U) {
-      EXPECT_LT(glm::length(feet.velocity_m_s[0]), 0.3) << t;
+      EXPECT_LT(glm::length(feet.velocity_m_s[0]), 0.05) << t;
     }
     if ((bits & 12U) == 12U) {
-      EXPECT_LT(glm::length(feet.velocity_m_s[1]), 0.3) << t;
+      EXPECT_LT(glm::length(feet.velocity_m_s[1]), 0.05) << t;
     }
   }
 }
