@@ -17,8 +17,6 @@
 #include "app/engine/open_base.h"
 #include "app/motion/error_of_file.h"
 #include "app/motion/retarget_files.h"
-#include "app/shell/option_checks.h"
-#include "core/base/extension.h"
 #include "core/base/in_quotes.h"
 #include "core/base/input_file.h"
 #include "core/human/average_proportions.h"
@@ -187,15 +185,8 @@ Status check_body_format(const BlendArguments& args,
 }  // namespace
 
 Result<MotionFormat> check_blend_out(const BlendArguments& args) {
-  if (const Status ok = check_out_file(args.out); !ok) return ok.error();
-  const std::string kind = kind_by_extension(args.out);
-  const auto format =
-      kind.empty() ? std::optional<MotionFormat>() : motion_format(kind.substr(1));
-  if (!format) {
-    return bad_input(args.out.string(),
-                     "cannot write a " + in_quotes(kind) + " file",
-                     "name the result " + motion_extensions());
-  }
+  const auto format = output_format(args.out);
+  if (!format) return format.error();
   std::error_code absent;
   for (const ReadFile& file : read_files_of(args)) {
     if (!fs::equivalent(args.out, file.path, absent)) continue;

@@ -14,8 +14,6 @@
 #include "app/edit/edit_inputs.h"
 #include "app/edit/edit_outputs.h"
 #include "app/motion/error_of_file.h"
-#include "app/shell/option_checks.h"
-#include "core/base/extension.h"
 #include "core/base/in_quotes.h"
 #include "core/base/input_file.h"
 
@@ -71,15 +69,8 @@ std::vector<Finding> findings_of_jump(const JumpArguments& args, const EditRun& 
 }  // namespace
 
 Result<MotionFormat> check_jump_out(const JumpArguments& args) {
-  if (const Status ok = check_out_file(args.out); !ok) return ok.error();
-  const std::string kind = kind_by_extension(args.out);
-  const auto format =
-      kind.empty() ? std::optional<MotionFormat>() : motion_format(kind.substr(1));
-  if (!format) {
-    return bad_input(args.out.string(),
-                     "cannot write a " + in_quotes(kind) + " file",
-                     "name the result " + motion_extensions());
-  }
+  const auto format = output_format(args.out);
+  if (!format) return format.error();
   std::vector<std::pair<fs::path, const char*>> read{{args.motion, "the motion"},
                                                      {args.character, "--character"}};
   std::error_code absent;

@@ -9,7 +9,10 @@
 #include "app/motion/angle_table.h"
 #include "app/motion/error_of_file.h"
 #include "app/motion/foot_contacts.h"
+#include "app/shell/option_checks.h"
 #include "app/shell/word_list.h"
+#include "core/base/extension.h"
+#include "core/base/in_quotes.h"
 #include "core/pose.h"
 #include "recordings/base/atomic_file.h"
 #include "recordings/gltf/vrma.h"
@@ -90,6 +93,17 @@ std::optional<MotionFormat> motion_format(std::string_view wanted) {
     if (name(format) == wanted) return format;
   }
   return std::nullopt;
+}
+
+Result<MotionFormat> output_format(const std::filesystem::path& out) {
+  if (const Status ok = check_out_file(out); !ok) return ok.error();
+  const std::string kind = kind_by_extension(out);
+  const auto format =
+      kind.empty() ? std::optional<MotionFormat>() : motion_format(kind.substr(1));
+  if (format) return *format;
+  return bad_input(out.string(),
+                   "cannot write a " + in_quotes(kind) + " file",
+                   "name the result " + motion_extensions());
 }
 
 std::string motion_extensions() {

@@ -26,6 +26,9 @@ enum class MotionFormat { kGlb, kBvh, kVrma, kNpz, kCsv, kMot };
 /// Returns the file extension without its point: "glb", "bvh", ...
 [[nodiscard]] std::string_view name(MotionFormat format);
 [[nodiscard]] std::optional<MotionFormat> motion_format(std::string_view name);
+/// Returns the format of a result by its extension. Errors (kBadInput):
+/// check_out_file()'s; a kind of file that is not written.
+[[nodiscard]] Result<MotionFormat> output_format(const std::filesystem::path& out);
 /// Returns the extensions of all formats, for help and messages: ".glb, .bvh, .vrma,
 /// .npz, .csv or .mot".
 [[nodiscard]] std::string motion_extensions();
